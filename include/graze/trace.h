@@ -1,0 +1,93 @@
+/* From a ray to radiance with its standard error. */
+#ifndef GRAZE_TRACE_H
+#define GRAZE_TRACE_H
+
+#include <stdint.h>
+
+#include "graze/error.h"
+#include "graze/scene.h"
+#include "graze/vector.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How light from lights is found. All three converge to the same answer. */
+typedef enum graze_strategy {
+    GRAZE_STRATEGY_MIS = 0, /* light samples and reflected directions, combined by multiple importance sampling */
+    GRAZE_STRATEGY_LIGHT,   /* Eq. 18 alone wherever a light can be sampled */
+    GRAZE_STRATEGY_BRDF,    /* Eq. 16 alone */
+} graze_strategy;
+
+/* What is to be computed of a ray. */
+typedef enum graze_quantity {
+    GRAZE_RADIANCE = 0,   /* radiance arriving along the ray, W/sr/m^2 */
+    GRAZE_IRRADIANCE_HIT, /* rtrace's -i: irradiance in W/m^2 on what the ray hits first; a light's radiance stays */
+    GRAZE_IRRADIANCE,     /* rtrace's -I: irradiance on a sensor at the ray's origin, the direction its normal */
+} graze_quantity;
+
+/* Start from graze_trace_defaults() and change what you want. */
+typedef struct graze_trace_settings {
+    graze_quantity quantity;
+    graze_strategy strategy;
+    int ambient_bounces;       /* -ab: diffuse interreflections followed, >= 0 */
+    graze_rgb ambient_value;   /* -av: radiance that stands for all diffuse light beyond */
+    int back_faces_visible;    /* -bv: 0: opaque surfaces seen from behind are not there (but cast shadows) */
+    int lights_visible;        /* -dv: 0: lights are black to the eye and in mirrors, but light everything as ever */
+    int reflection_limit;      /* -lr: > 0: no more reflections than this; 0: roulette; < 0: roulette up to the limit */
+    double minimum_weight;     /* -lw: below this weight paths are dropped (reflection_limit > 0) or play roulette */
+    double specular_threshold; /* -st: rough lobes of at most this reflectance are added to the diffuse part; 0 .. 1 */
+    double error;              /* stop when the standard error is below error x value; > 0 */
+    double floor;              /* ... or below error x floor, in the unit of the value; >= 0 */
+    uint32_t samples;          /* if not 0: take exactly this many paths, at least 2, whatever the error */
+    uint32_t sample_limit;     /* with `error`: never more paths than this */
+    uint64_t seed;             /* other seeds give other, equally good answers */
+} graze_trace_settings;
+
+GRAZE_API graze_trace_settings graze_trace_defaults(void);
+
+/* Checks the settings; reports the first that is out of its range. */
+GRAZE_API graze_status graze_trace_check(const graze_trace_settings *settings, const graze_report *report);
+
+typedef struct graze_ray {
+    graze_vec3 origin;
+    graze_vec3 direction; /* of any length but 0: it is normalised */
+    double limit;         /* surfaces beyond this distance are not seen; 0: no limit */
+} graze_ray;
+
+/* Distance of what a ray never meets. */
+#define GRAZE_FAR 1e10
+
+/* What a ray met first. Names live as long as the scene and are null where there is none. */
+typedef struct graze_hit {
+    const char *surface;       /* null: nothing was hit */
+    const char *modifier;      /* of the surface */
+    const char *material;      /* at the end of the modifiers */
+    double distance;           /* GRAZE_FAR: nothing, or a source infinitely far away */
+    graze_vec3 point;          /* on the surface; the origin where nothing was hit */
+    graze_vec3 normal;         /* unit, on the surface's own front; null vector where nothing was hit */
+    graze_vec3 shading_normal; /* the same, perturbed by textures, on the side of the ray */
+} graze_hit;
+
+typedef struct graze_answer {
+    graze_rgb value;
+    graze_rgb standard_error; /* of `value`; 0 where no random number was needed */
+    uint32_t samples;         /* paths taken */
+    int converged;            /* 0: sample_limit was reached before the error asked for */
+} graze_answer;
+
+/* Where a ray goes, without any light. The ray must be finite, its direction not null: else `hit` is of nothing. */
+GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
+                          graze_hit *hit);
+
+/* Traces one ray. `stream` tells rays apart: the same scene, settings, ray and stream give the same bits, on any
+ * thread, in any order; use the ray's number. `hit` may be null. A ray that is not finite or has no direction answers
+ * 0. */
+GRAZE_API void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
+                           uint64_t stream, graze_answer *answer, graze_hit *hit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

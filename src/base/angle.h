@@ -1,0 +1,9 @@
+/* Angles. */
+#ifndef BASE_ANGLE_H
+#define BASE_ANGLE_H
+
+#define PI 3.14159265358979323846
+
+static inline double angle_radians(double degrees) { return degrees * (PI / 180); }
+
+#endif

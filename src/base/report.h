@@ -1,0 +1,29 @@
+/* Reporting: a printf for messages that carry their place in the input. */
+#ifndef BASE_REPORT_H
+#define BASE_REPORT_H
+
+#include <stddef.h>
+
+#include "graze/error.h"
+
+/* A place in some input. `file` is its name as the user knows it, or null where there is none; `line` and `column`
+ * count from 1, and 0 stands for unknown. `parent` is the place that brought this input in (the line of the scene that
+ * ran the command whose output this is), or null. */
+typedef struct place {
+    const char *file;
+    int line, column;
+    const struct place *parent;
+} place;
+
+/* Each reports one message. `where` may be null. Return the status to hand on, so that
+ * `return report_error(...)` reads well. */
+graze_status report_error(const graze_report *report, const place *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* As report_error, with ": " and the text of `errno` behind the message. */
+graze_status report_system_error(const graze_report *report, const place *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+graze_status report_out_of_memory(const graze_report *report);
+void report_warning(const graze_report *report, const place *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,44 @@
+/* All surfaces of a scene as Embree sees them, and the exact hit points of rays on them. */
+#ifndef GEOMETRY_GEOMETRY_H
+#define GEOMETRY_GEOMETRY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/report.h"
+#include "base/vector.h"
+#include "geometry/shape.h"
+
+typedef struct geometry geometry;
+
+/* Radiance's "infinitely far" (FHUGE). */
+#define GEOMETRY_FAR 1e10
+
+typedef struct geometry_ray {
+    vec3 origin;
+    vec3 direction; /* unit */
+    double far;     /* hits beyond are none; GEOMETRY_FAR for no limit */
+    int from;       /* the surface that the ray leaves, or -1: it is not hit again at its origin */
+} geometry_ray;
+
+typedef struct geometry_hit {
+    int surface;     /* index into the shapes given to geometry_build; -1: nothing hit */
+    double distance;
+    vec3 point;      /* on the surface to double precision */
+    vec3 normal;     /* unit, of the surface's own side (not turned towards the ray) */
+} geometry_hit;
+
+/* Builds from `count` shapes, which must live as long as the geometry. `threads` bounds the build's own. An empty scene is
+ * allowed and hits nothing; Embree is then not even started. */
+graze_status geometry_build(geometry **, const shape *shapes, size_t count, int threads, const graze_report *);
+void geometry_destroy(geometry *);
+
+/* The nearest hit, or false. Safe on any number of threads. The ray must be finite. */
+bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
+/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far`. */
+bool geometry_occluded(const geometry *, const geometry_ray *, int target);
+
+/* The scene's bounds; lower > upper where it is empty. */
+void geometry_bounds(const geometry *, vec3 *lower, vec3 *upper);
+
+#endif

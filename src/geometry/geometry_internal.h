@@ -1,0 +1,53 @@
+/* What building a geometry and asking it have in common. */
+#ifndef GEOMETRY_GEOMETRY_INTERNAL_H
+#define GEOMETRY_GEOMETRY_INTERNAL_H
+
+#include "geometry/embree.h"
+#include "geometry/geometry.h"
+
+/* Embree works in single precision, on a scene moved and scaled into the unit ball. Corners and a ray's origin are wrong by
+ * up to sqrt(3) 2^-25 each, its far end by twice that, and the test of a triangle adds about as much again: against each
+ * other they are displaced by no more than this. */
+#define GEOMETRY_FLOAT_ERROR 0x1p-20
+/* By so much are Embree's triangles larger on all sides than the true ones; less, but no less than the least, where they
+ * are small. Hardly any ray then misses one that it should meet, and an exact test sorts out the others. Between
+ * neighbours that overlap by too little, and lie above one another by a rounding, oblique rays would slip through. */
+#define GEOMETRY_BORDER 0x1p-18
+#define GEOMETRY_BORDER_LEAST 0x1p-22
+
+/* What the exact test of a triangle begins with, in one cache line. */
+typedef struct geometry_triangle {
+    vec3 normal, center; /* of the polygon */
+    int surface;
+    uint32_t index; /* among the polygon's triangles */
+    /* A hit is certain in spite of single precision where its least barycentric coordinate, times the cosine at which
+     * the ray meets the triangle, is above this. */
+    float margin;
+    float error; /* how far from the true triangle Embree may take it to be met, in its units */
+} geometry_triangle;
+
+struct geometry {
+    const shape *shapes;
+    RTCDevice device; /* null in an empty scene */
+    RTCScene scene;
+    vec3 lower, upper;
+    vec3 center;
+    double radius; /* around the center; holds all */
+    double scale;  /* a power of two that makes the radius at most 1 */
+    double near;   /* crossings at most this far from a ray's origin are at its origin */
+    geometry_triangle *triangles; /* by Embree's primitive numbers; aligned to cache lines */
+    size_t triangle_count;
+    int *curved; /* the surfaces that are no polygons, by Embree's primitive numbers */
+    size_t curved_count;
+};
+
+/* A corner of the triangle. */
+vec3 geometry_corner(const geometry *, const geometry_triangle *, int corner);
+
+/* The callbacks: exact tests of what Embree comes upon. */
+void geometry_filter_intersect(const struct RTCFilterFunctionNArguments *);
+void geometry_filter_occluded(const struct RTCFilterFunctionNArguments *);
+void geometry_intersect_curved(const struct RTCIntersectFunctionNArguments *);
+void geometry_occluded_curved(const struct RTCOccludedFunctionNArguments *);
+
+#endif

@@ -1,0 +1,345 @@
+/* Rays: candidates from Embree, decisions in double precision. */
+#include <float.h>
+#include <math.h>
+
+#include "geometry/crossing.h"
+#include "geometry/geometry_internal.h"
+
+/* Embree finds candidates in single precision; which of them the ray meets, and where, is decided here in double
+ * precision alone. A triangle is met where the true line passes on the inner side of its three edges, after Woop, Benthin
+ * and Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013: corners are laid
+ * into a plane that the line is perpendicular to, each by itself, and then
+ * no sign is wrong. So no line slips through
+ * between triangles that share their corners. What single precision may mistake is then only which candidates there are,
+ * near edges; see trace(). */
+
+/* Places on a ray where Embree has been wrong about a triangle; more of them are very unlikely. */
+#define MISSES 16
+
+/* By so many errors of single precision Embree's rays are longer at both ends. */
+#define ENDS 64
+
+/* A surface goes through a point where it is no farther from it than this times the scene's coordinates: the roundings of
+ * a point computed on it. */
+#define ON_SURFACE (16 * DBL_EPSILON)
+/* Sine of the angle up to which two surfaces lie on one another. */
+#define PARALLEL 1e-6
+
+typedef struct candidate {
+    double distance;
+    int surface;
+    const geometry_triangle *triangle; /* null where the surface is curved */
+} candidate;
+
+/* About where Embree took a triangle to be met that is not. */
+typedef struct miss {
+    double distance;
+    double error; /* how far from it the ray really passes */
+    double reach; /* how far along the ray that may lead: the more oblique, the farther */
+} miss;
+
+typedef struct query {
+    embree_context context; /* first, since Embree hands on its address */
+    const geometry *geometry;
+    vec3 origin, direction;
+    double far; /* crossings beyond are none */
+    int from, target;
+    bool any; /* whether there is a crossing is all that is asked */
+    bool found_any;
+    double start;     /* distance along the ray of Embree's origin: where it enters the scene, a little before */
+    double end;       /* and where it leaves the scene or comes to its own end, a little behind */
+    candidate nearest, nearest_front;
+    float limit; /* Embree's distance beyond which nothing matters */
+    miss misses[MISSES];
+    int miss_count;
+    const miss *around; /* the one that is being looked after */
+} query;
+
+/* The bound of single precision's errors, as a length of the scene. */
+static double float_error(const query *q) { return GEOMETRY_FLOAT_ERROR / q->geometry->scale; }
+
+/* Embree's own distance at which to stop looking when a surface is met at `t`, under a cosine of `slope`: behind what it
+ * takes for the distance of surfaces that coincide with this one. */
+static float embree_limit(const query *q, double t, double slope) {
+    double limit = t + float_error(q) / fabs(slope) + q->geometry->near;
+    return (float)(((limit < q->end ? limit : q->end) - q->start) * q->geometry->scale);
+}
+
+static bool is_before(const candidate *a, const candidate *b) {
+    return a->distance < b->distance || (a->distance == b->distance && a->surface > b->surface);
+}
+
+/* Takes a crossing into account, `slope` being the cosine between ray and normal; true where that shortens the search. */
+static bool offer(query *q, candidate c, double slope) {
+    if (q->any) {
+        q->found_any = true;
+        return true;
+    }
+    if (slope < 0 && is_before(&c, &q->nearest_front))
+        q->nearest_front = c;
+    if (!is_before(&c, &q->nearest))
+        return false;
+    q->nearest = c;
+    q->limit = embree_limit(q, c.distance, slope);
+    return true;
+}
+
+/* Whether a crossing close to the ray's origin is at its origin. `slope`: cosine between the ray and the normal there. A
+ * surface that the origin lies on is not hit, and within Radiance's distance neither is one that lies on the surface that
+ * the ray leaves. But others that meet it at an angle are. */
+static bool is_at_origin(const query *q, double distance, double slope, vec3 normal) {
+    const geometry *g = q->geometry;
+    if (q->from < 0 || distance * fabs(slope) <= ON_SURFACE * (vec3_max_abs(g->center) + g->radius))
+        return true;
+    vec3 left = shape_normal(&g->shapes[q->from], q->origin);
+    return vec3_length(vec3_cross(left, normal)) <= PARALLEL;
+}
+
+static bool in_reach(const query *q, double distance, double slope, vec3 normal) {
+    return distance > 0 && distance <= q->far &&
+           (distance > q->geometry->near || !is_at_origin(q, distance, slope, normal));
+}
+
+typedef struct point2 {
+    double x, y;
+} point2;
+
+/* Corner of a triangle as seen along the ray. */
+static point2 project(const query *q, vec3 corner) {
+    vec3 v = vec3_subtract(corner, q->origin), d = q->direction;
+    double ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
+    if (az >= ax && az >= ay)
+        return (point2){v.x - d.x / d.z * v.z, v.y - d.y / d.z * v.z};
+    if (ay >= ax)
+        return (point2){v.z - d.z / d.y * v.y, v.x - d.x / d.y * v.y};
+    return (point2){v.y - d.y / d.x * v.x, v.z - d.z / d.x * v.x};
+}
+
+/* The sign of a.x b.y - a.y b.x, never the wrong one: rounded products that differ are in the order of the exact ones.
+ * Those that do not count as 0, which is inside of the triangles on both sides. */
+static int edge_side(point2 a, point2 b) {
+    double p = a.x * b.y, q = a.y * b.x;
+    return (p > q) - (p < q);
+}
+
+static bool line_meets_triangle(const query *q, const geometry_triangle *triangle) {
+    point2 a = project(q, geometry_corner(q->geometry, triangle, 0));
+    point2 b = project(q, geometry_corner(q->geometry, triangle, 1));
+    point2 c = project(q, geometry_corner(q->geometry, triangle, 2));
+    int ab = edge_side(a, b), bc = edge_side(b, c), ca = edge_side(c, a);
+    return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+/* Whether the exact test can only confirm Embree's finding. */
+static bool is_certain(const geometry_triangle *triangle, double slope, const struct RTCHit *hit) {
+    double cosine = fabs(slope), margin = triangle->margin;
+    return hit->u * cosine > margin && hit->v * cosine > margin && (1 - hit->u - hit->v) * cosine > margin;
+}
+
+/* Offers a triangle that the line meets. */
+static bool offer_met(query *q, const geometry_triangle *triangle, double slope) {
+    double distance = vec3_dot(triangle->normal, vec3_subtract(triangle->center, q->origin)) / slope;
+    return in_reach(q, distance, slope, triangle->normal) &&
+           offer(q, (candidate){distance, triangle->surface, triangle}, slope);
+}
+
+static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
+    double error = triangle->error / q->geometry->scale;
+    miss m = {distance, error, error / fmax(fabs(slope), DBL_EPSILON)};
+    for (int i = 0; i < q->miss_count; i++)
+        if (fabs(distance - q->misses[i].distance) <= error && m.reach <= 1.1 * q->misses[i].reach)
+            return;
+    if (q->miss_count < MISSES)
+        q->misses[q->miss_count++] = m;
+}
+
+static bool is_excepted(const query *q, const geometry_triangle *triangle) {
+    return triangle->surface == q->from || triangle->surface == q->target;
+}
+
+static bool offer_triangle(query *q, const struct RTCRay *ray, const struct RTCHit *hit) {
+    const geometry_triangle *triangle = &q->geometry->triangles[hit->primID];
+    if (is_excepted(q, triangle))
+        return false;
+    double slope = vec3_dot(triangle->normal, q->direction);
+    if (is_certain(triangle, slope, hit) || line_meets_triangle(q, triangle))
+        return offer_met(q, triangle, slope);
+    note_miss(q, triangle, q->start + ray->tfar / q->geometry->scale, slope);
+    return false;
+}
+
+/* Offers a triangle near a miss. */
+static bool offer_neighbour(struct RTCPointQueryFunctionArguments *args) {
+    query *q = args->userPtr;
+    /* Triangles are attached first. */
+    if (args->geomID != 0 || !q->geometry->triangle_count)
+        return false;
+    const geometry_triangle *triangle = &q->geometry->triangles[args->primID];
+    if (is_excepted(q, triangle))
+        return false;
+    double slope = vec3_dot(triangle->normal, q->direction);
+    if (line_meets_triangle(q, triangle))
+        offer_met(q, triangle, slope);
+    else
+        note_miss(q, triangle, q->around->distance, slope);
+    return false;
+}
+
+static bool offer_curved(query *q, unsigned primitive) {
+    int surface = q->geometry->curved[primitive];
+    if (surface == q->target)
+        return false;
+    const shape *s = &q->geometry->shapes[surface];
+    shape_crossings crossings = shape_cross(s, q->origin, q->direction, surface == q->from);
+    for (int i = 0; i < crossings.count; i++) {
+        double distance = crossings.distance[i];
+        if (distance <= 0 || distance > q->far)
+            continue;
+        vec3 normal = shape_normal(s, vec3_add_scaled(q->origin, distance, q->direction));
+        double slope = vec3_dot(normal, q->direction);
+        if (in_reach(q, distance, slope, normal))
+            return offer(q, (candidate){distance, surface, NULL}, slope);
+    }
+    return false;
+}
+
+void geometry_filter_intersect(const struct RTCFilterFunctionNArguments *args) {
+    query *q = (query *)args->context;
+    struct RTCRay *ray = embree_ray(args->ray);
+    if (offer_triangle(q, ray, embree_hit(args->hit)))
+        ray->tfar = q->limit;
+    else
+        args->valid[0] = 0;
+}
+
+void geometry_filter_occluded(const struct RTCFilterFunctionNArguments *args) {
+    query *q = (query *)args->context;
+    if (!offer_triangle(q, embree_ray(args->ray), embree_hit(args->hit)))
+        args->valid[0] = 0;
+}
+
+void geometry_intersect_curved(const struct RTCIntersectFunctionNArguments *args) {
+    query *q = (query *)args->context;
+    struct RTCRay *ray = embree_ray(args->rayhit);
+    if (args->valid[0] && offer_curved(q, args->primID))
+        ray->tfar = fminf(ray->tfar, q->limit);
+}
+
+void geometry_occluded_curved(const struct RTCOccludedFunctionNArguments *args) {
+    query *q = (query *)args->context;
+    if (args->valid[0] && offer_curved(q, args->primID))
+        embree_ray(args->ray)->tfar = -INFINITY;
+}
+
+/* The place at a distance along the ray, in Embree's units. */
+static vec3 embree_place(const query *q, double distance) {
+    const geometry *g = q->geometry;
+    return vec3_scale(g->scale, vec3_add_scaled(vec3_subtract(q->origin, g->center), distance, q->direction));
+}
+
+/* Sends Embree along the ray. */
+static void cast(query *q) {
+    const geometry *g = q->geometry;
+    vec3 o = embree_place(q, q->start);
+    struct RTCRay ray = {.org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z,
+                         .dir_x = (float)q->direction.x, .dir_y = (float)q->direction.y, .dir_z = (float)q->direction.z,
+                         .tfar = q->limit, .mask = UINT32_MAX};
+    if (q->any) {
+        embree_occluded(g->scene, &q->context, &ray);
+    } else {
+        struct RTCRayHit ray_hit = {.ray = ray, .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+        embree_intersect(g->scene, &q->context, &ray_hit);
+    }
+}
+
+/* Tests all triangles about a miss. */
+static void look_around(query *q) {
+    const geometry *g = q->geometry;
+    vec3 center = embree_place(q, q->around->distance);
+    struct RTCPointQuery around = {.x = (float)center.x, .y = (float)center.y, .z = (float)center.z,
+                                   .radius = (float)fmin(2 * q->around->reach * g->scale, 4)};
+    struct RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(g->scene, &around, &context, offer_neighbour, q);
+}
+
+/* The part of the ray that lies in the scene's ball; false where there is none. */
+static bool clip(query *q) {
+    const geometry *g = q->geometry;
+    vec3 to_center = vec3_subtract(g->center, q->origin);
+    double middle = vec3_dot(to_center, q->direction);
+    vec3 past = vec3_add_scaled(to_center, -middle, q->direction);
+    double radius = g->radius + 1e-14 * (fabs(to_center.x) + fabs(to_center.y) + fabs(to_center.z));
+    if (vec3_dot(past, past) > radius * radius || middle + radius < 0)
+        return false;
+    q->start = middle > radius ? middle - radius : 0;
+    q->end = q->far < middle + radius ? q->far : middle + radius;
+    /* Surfaces close to the ends must not get beyond them, oblique ones neither. */
+    q->start -= ENDS * float_error(q);
+    q->end += ENDS * float_error(q);
+    q->limit = (float)((q->end - q->start) * g->scale);
+    return q->start <= q->end;
+}
+
+/* Follows the ray. Where Embree took it through a triangle that it passes by, single precision has been too coarse to tell
+ * two neighbours apart, and the right one may have been overlooked. Where nothing else is known to stop the ray there or
+ * before, it is then looked for among all triangles about that place. One of those that is almost parallel to the ray
+ * may lead to the right one farther away: that is another miss, of larger reach. All are tested against the true ray. */
+static void trace(query *q) {
+    embree_context_init(&q->context);
+    q->nearest = q->nearest_front = (candidate){INFINITY, -1, NULL};
+    cast(q);
+    for (int i = 0; i < q->miss_count && !q->found_any; i++) {
+        q->around = &q->misses[i];
+        if (q->nearest.distance > q->around->distance + q->around->error)
+            look_around(q);
+    }
+}
+
+/* Embree takes no care of rays that are none; beyond 1e100 our own squares would overflow. */
+static bool is_ray(const geometry_ray *ray) {
+    double length2 = vec3_dot(ray->direction, ray->direction);
+    return length2 > 0 && length2 < 2 && vec3_dot(ray->origin, ray->origin) < 1e200;
+}
+
+bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
+    hit->surface = -1;
+    if (!g->scene || !is_ray(ray))
+        return false;
+    query q = {.geometry = g, .origin = ray->origin, .direction = ray->direction, .far = ray->far, .from = ray->from,
+               .target = -1};
+    if (!clip(&q))
+        return false;
+    trace(&q);
+    /* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray. */
+    bool front = q.nearest_front.distance <= q.nearest.distance + g->near;
+    candidate found = front ? q.nearest_front : q.nearest;
+    if (found.surface < 0)
+        return false;
+    hit->surface = found.surface;
+    hit->distance = found.distance;
+    hit->point = vec3_add_scaled(ray->origin, found.distance, ray->direction);
+    const geometry_triangle *triangle = found.triangle;
+    if (triangle) {
+        /* shape_pull() without another look into memory */
+        double height = vec3_dot(triangle->normal, vec3_subtract(hit->point, triangle->center));
+        hit->point = vec3_add_scaled(hit->point, -height, triangle->normal);
+        hit->normal = triangle->normal;
+    } else {
+        hit->point = shape_pull(&g->shapes[found.surface], hit->point);
+        hit->normal = shape_normal(&g->shapes[found.surface], hit->point);
+    }
+    return true;
+}
+
+bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
+    if (!g->scene || !is_ray(ray))
+        return false;
+    /* What coincides with the ray's end does not lie before it. */
+    query q = {.geometry = g, .origin = ray->origin, .direction = ray->direction, .far = ray->far - g->near,
+               .from = ray->from, .target = target, .any = true};
+    if (!clip(&q))
+        return false;
+    trace(&q);
+    return q.found_any;
+}

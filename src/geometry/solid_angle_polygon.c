@@ -1,0 +1,224 @@
+/* Polygons, uniformly in solid angle. A polygon is drawn as the spherical triangles that make it up, chosen by their
+ * solid angle; u is stretched over the chosen one, so that no third number is needed. A rectangle is drawn as a whole,
+ * which keeps a stratified (u, v) stratified.
+ *
+ * No formula below subtracts nearly equal numbers when the polygon is small, far or seen edge-on: differences are taken
+ * between vertices, where they are exact, and points are found on the polygon's edges, not by meeting its plane. So
+ * nothing needs to change to area sampling for small solid angles. */
+#include "geometry/solid_angle_shapes.h"
+
+/* A triangle as seen from the point. */
+typedef struct view_triangle {
+    vec3 a, b;   /* displacements from the point to two of the vertices */
+    vec3 ab, ac; /* edges */
+    double length_a, length_b;
+    double volume;       /* det of the displacements to the vertices, so oriented that the front's is positive */
+    double cos_ab;       /* of the angle that edge ab subtends */
+    double sine, cosine; /* of half the solid angle, but for a common factor; sine > 0 */
+} view_triangle;
+
+/* False if nothing of the front is seen. */
+static bool view(view_triangle *t, const shape *s, const uint32_t triangle[3], vec3 from) {
+    const vec3 *vertices = s->polygon.vertices;
+    vec3 va = vertices[triangle[0]], vb = vertices[triangle[1]], vc = vertices[triangle[2]];
+    t->a = vec3_subtract(va, from);
+    t->ab = vec3_subtract(vb, va);
+    t->ac = vec3_subtract(vc, va);
+    vec3 normal = vec3_cross(t->ab, t->ac);
+    t->volume = -vec3_dot(t->a, normal);
+    if (!(t->volume > solid_angle_rounding(from, va) * vec3_length(normal)))
+        return false;
+    t->b = vec3_subtract(vb, from);
+    vec3 c = vec3_subtract(vc, from);
+    t->length_a = vec3_length(t->a);
+    t->length_b = vec3_length(t->b);
+    double length_c = vec3_length(c), lengths = t->length_a * t->length_b * length_c;
+    t->cos_ab = vec3_dot(t->a, t->b) / (t->length_a * t->length_b);
+    /* A. van Oosterom and J. Strackee, "The solid angle of a plane triangle", 1983. */
+    t->sine = t->volume / lengths;
+    t->cosine =
+        1 + t->cos_ab + vec3_dot(t->b, c) / (t->length_b * length_c) + vec3_dot(t->a, c) / (t->length_a * length_c);
+    return t->sine > 0;
+}
+
+static double triangle_solid_angle(const view_triangle *t) {
+    return 2 * atan2(t->sine, t->cosine);
+}
+
+/* The point of the segment from p along `edge` that is seen at the angle from p with this sine and cosine. `along` and
+ * `across` are edge's parts along the direction to p and perpendicular to it. */
+static double cut_edge(double length_p, double along, double across, double sine, double cosine) {
+    double numerator = length_p * sine, denominator = across * cosine - along * sine;
+    return numerator < denominator ? numerator / denominator : 1;
+}
+
+/* The displacement to the drawn point. J. Arvo, "Stratified sampling of spherical triangles", 1995, in a form of our
+ * own: C' on the arc from A to C at the angle phi cuts off a triangle ABC' of solid angle omega' if tan(phi/2) = s (1 +
+ * A.B) / (k cos(omega'/2) - s B.T),  s = sin(omega'/2),  k = det(A, B, T), T being the unit tangent at A towards C.
+ * Everything here is multiplied by the length of ac's part along T. */
+static vec3 draw_triangle(const view_triangle *t, double solid_angle, double u, double v) {
+    vec3 unit_a = vec3_scale(1 / t->length_a, t->a), unit_b = vec3_scale(1 / t->length_b, t->b);
+    double along = vec3_dot(t->ac, unit_a);
+    vec3 tangent = vec3_add_scaled(t->ac, -along, unit_a);
+    double across = vec3_length(tangent);
+    double volume = t->volume / (t->length_a * t->length_b);
+    double s = sin(0.5 * u * solid_angle), c = cos(0.5 * u * solid_angle);
+    double x = s * (1 + t->cos_ab) * across, y = volume * c - s * vec3_dot(unit_b, tangent);
+    double norm = x * x + y * y;
+    double cut = norm > 0 ? cut_edge(t->length_a, along, across, 2 * x * y / norm, (y - x) * (y + x) / norm) : u;
+    /* From B to C', the cosine of the angle from B uniformly. */
+    vec3 edge = vec3_add_scaled(vec3_negate(t->ab), cut, t->ac);
+    vec3 c_cut = vec3_add(t->b, edge);
+    along = vec3_dot(edge, unit_b);
+    across = vec3_length(vec3_add_scaled(edge, -along, unit_b));
+    double length_c = vec3_length(c_cut);
+    if (!(length_c > 0))
+        return t->b;
+    double cosine = vec3_dot(c_cut, unit_b) / length_c, sine = across / length_c;
+    double lowered = v * (cosine > 0 ? sine * sine / (1 + cosine) : 1 - cosine);
+    cut = cut_edge(t->length_b, along, across, sqrt(lowered * fmax(2 - lowered, 0)), 1 - lowered);
+    return vec3_add_scaled(t->b, cut, edge);
+}
+
+/* A rectangle seen from the origin of the frame x, y, normal: [x0, x1] times [y0, y1] at z = -height. */
+typedef struct view_rectangle {
+    vec3 corner, edge_x, edge_y; /* from the point to the first corner; its edges */
+    double length_x, length_y;
+    double x0, x1, y0, y1, height;
+    double solid_angle;
+    double start; /* the solid angle between the lines x = 0 and x = x0, y in [y0, y1] */
+} view_rectangle;
+
+static bool is_rectangle(const shape *s, view_rectangle *r) {
+    if (s->polygon.vertex_count != 4)
+        return false;
+    const vec3 *p = s->polygon.vertices;
+    r->edge_x = vec3_subtract(p[1], p[0]);
+    r->edge_y = vec3_subtract(p[3], p[0]);
+    r->length_x = vec3_length(r->edge_x);
+    r->length_y = vec3_length(r->edge_y);
+    /* Far below what solid angles are promised to, and above what turning a rectangle's vertices loses. */
+    const double tolerance = 1e-11;
+    if (!(fabs(vec3_dot(r->edge_x, r->edge_y)) <= tolerance * r->length_x * r->length_y))
+        return false;
+    vec3 gap = vec3_subtract(vec3_subtract(p[2], p[1]), r->edge_y);
+    return vec3_length(gap) <= tolerance * fmin(r->length_x, r->length_y);
+}
+
+typedef struct complex_number {
+    double re, im;
+} complex_number;
+
+static complex_number times(complex_number a, complex_number b) {
+    return (complex_number){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+
+/* Its argument is the solid angle of [0, x] times [0, y]: the tangent of that is x y / (height r). */
+static complex_number corner(double x, double y, double height) {
+    return (complex_number){1, x * y / (height * sqrt(x * x + y * y + height * height))};
+}
+
+static complex_number conjugate(complex_number a) {
+    return (complex_number){a.re, -a.im};
+}
+
+/* Whether the polygon is a rectangle whose solid angle and shape suit draw_rectangle. Corner terms cancel where the
+ * solid angle is small, and x is lost where it is far greater than the height; triangles do better there. */
+static bool view_as_rectangle(view_rectangle *r, const shape *s, vec3 from) {
+    if (!is_rectangle(s, r))
+        return false;
+    r->corner = vec3_subtract(s->polygon.vertices[0], from);
+    vec3 x = vec3_scale(1 / r->length_x, r->edge_x), y = vec3_scale(1 / r->length_y, r->edge_y);
+    r->x0 = vec3_dot(r->corner, x);
+    r->y0 = vec3_dot(r->corner, y);
+    r->x1 = r->x0 + r->length_x;
+    r->y1 = r->y0 + r->length_y;
+    r->height = -vec3_dot(r->corner, vec3_cross(x, y));
+    double extent = fmax(fmax(fabs(r->x0), fabs(r->x1)), fmax(fabs(r->y0), fabs(r->y1)));
+    if (!(r->height > 1e-3 * extent))
+        return false;
+    complex_number left = times(corner(r->x0, r->y1, r->height), conjugate(corner(r->x0, r->y0, r->height)));
+    complex_number right = times(corner(r->x1, r->y1, r->height), conjugate(corner(r->x1, r->y0, r->height)));
+    complex_number whole = times(right, conjugate(left));
+    r->solid_angle = atan2(whole.im, whole.re);
+    if (r->solid_angle < 0)
+        r->solid_angle += 2 * SOLID_ANGLE_PI;
+    r->start = atan2(left.im, left.re);
+    return r->solid_angle > 1e-5;
+}
+
+/* After C. Urena, M. Fajardo and A. King, "An area-preserving parametrization for spherical rectangles", 2013, with an
+ * inversion of our own: with X = x/|(x, height)| and Y_i = y_i/|(y_i, height)| the solid angle between the lines 0 and
+ * x is asin(X Y1) - asin(X Y0), and setting that to tau gives X = sin(tau) / sqrt(Y0^2 + Y1^2 - 2 Y0 Y1 cos(tau)). */
+static vec3 draw_rectangle(const view_rectangle *r, double u, double v) {
+    double tau = r->start + u * r->solid_angle, h = r->height;
+    double y0 = r->y0 / sqrt(r->y0 * r->y0 + h * h), y1 = r->y1 / sqrt(r->y1 * r->y1 + h * h);
+    double sine = sin(tau), rest = y0 * y0 + y1 * y1 - 2 * y0 * y1 * cos(tau) - sine * sine;
+    double x = rest > 0 ? h * sine / sqrt(rest) : sine > 0 ? r->x1 : r->x0;
+    x = solid_angle_clamp(x, r->x0, r->x1);
+    /* On the line x the sine of the elevation in y's direction uniformly. */
+    double reach = x * x + h * h;
+    y0 = r->y0 / sqrt(r->y0 * r->y0 + reach);
+    y1 = r->y1 / sqrt(r->y1 * r->y1 + reach);
+    double y_sine = y0 + v * (y1 - y0);
+    double y = solid_angle_clamp(y_sine * sqrt(reach / ((1 - y_sine) * (1 + y_sine))), r->y0, r->y1);
+    vec3 to_line = vec3_add_scaled(r->corner, (x - r->x0) / r->length_x, r->edge_x);
+    return vec3_add_scaled(to_line, (y - r->y0) / r->length_y, r->edge_y);
+}
+
+double solid_angle_polygon(const shape *s, vec3 from) {
+    double sum = 0;
+    for (uint32_t i = 0; i < s->polygon.triangle_count; i++) {
+        view_triangle t;
+        if (view(&t, s, s->polygon.triangles[i], from))
+            sum += triangle_solid_angle(&t);
+    }
+    return sum > DBL_MIN ? sum : 0;
+}
+
+/* The triangles of small polygons are kept between adding them up and choosing one. */
+enum { KEPT = 4 };
+
+typedef struct kept_triangle {
+    view_triangle view;
+    double solid_angle; /* 0 where nothing of the front is seen */
+} kept_triangle;
+
+static void keep(kept_triangle *k, const shape *s, uint32_t triangle, vec3 from) {
+    k->solid_angle = view(&k->view, s, s->polygon.triangles[triangle], from) ? triangle_solid_angle(&k->view) : 0;
+}
+
+static solid_angle_sample draw_triangles(const shape *s, vec3 from, double u, double v) {
+    kept_triangle kept[KEPT + 1], *last = &kept[KEPT];
+    uint32_t count = s->polygon.triangle_count;
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        kept_triangle *k = i < KEPT ? &kept[i] : last;
+        keep(k, s, i, from);
+        sum += k->solid_angle;
+    }
+    if (!(sum > DBL_MIN))
+        return (solid_angle_sample){{0, 0, 0}, 0, 0};
+    double rest = u * sum;
+    kept_triangle chosen = {.solid_angle = 0};
+    for (uint32_t i = 0; i < count; i++) {
+        kept_triangle *k = i < KEPT ? &kept[i] : last;
+        if (k == last)
+            keep(k, s, i, from);
+        if (!(k->solid_angle > 0))
+            continue;
+        rest -= chosen.solid_angle;
+        chosen = *k;
+        if (rest < chosen.solid_angle)
+            break;
+    }
+    double within = fmin(rest / chosen.solid_angle, 1);
+    return solid_angle_sample_at(draw_triangle(&chosen.view, chosen.solid_angle, within, v), 1 / sum);
+}
+
+solid_angle_sample solid_angle_polygon_draw(const shape *s, vec3 from, double u, double v) {
+    view_rectangle r;
+    if (view_as_rectangle(&r, s, from))
+        return solid_angle_sample_at(draw_rectangle(&r, u, v), 1 / r.solid_angle);
+    return draw_triangles(s, from, u, v);
+}

@@ -1,0 +1,72 @@
+/* Exposure for the eye. */
+#include "image/image.h"
+
+#include <stdlib.h>
+
+#include "image/color.h"
+
+static const double middle_gray = 0.18;
+
+static double finite_or_black(double value) {
+    return value > 0 ? fmin(value, 1e30) : 0;
+}
+
+static double pixel_brightness(const image *picture, size_t i) {
+    rgb color = {finite_or_black(picture->channels[0][i]), finite_or_black(picture->channels[1][i]),
+                 finite_or_black(picture->channels[2][i])};
+    return rgb_brightness(color);
+}
+
+/* Brightness is counted in classes of half a stop, 2^-200 .. 2^200. */
+enum { CLASSES = 800, MIDDLE_CLASS = CLASSES / 2 };
+/* Pixels that differ from the median by more than this, a factor of a million, have no say in the exposure: a few stray
+ * photons in a shadow must not decide how a picture looks, nor must a glimpse of the sun. */
+enum { COUNTED_CLASSES = 40 };
+
+/* The class that holds the median of what is lit, or -1 where nothing is. */
+static int median_class(const image *picture, size_t count) {
+    size_t classes[CLASSES] = {0}, lit = 0, below = 0;
+    for (size_t i = 0; i < count; i++) {
+        double brightness = pixel_brightness(picture, i);
+        if (brightness > 0) {
+            classes[(int)floor(2 * log2(brightness)) + MIDDLE_CLASS]++;
+            lit++;
+        }
+    }
+    for (int c = 0; c < CLASSES && lit > 0; c++)
+        if ((below += classes[c]) >= (lit + 1) / 2)
+            return c;
+    return -1;
+}
+
+/* What brings the log-average to middle gray; 1 for a picture that is black. */
+static double exposure_of(const image *picture, size_t count) {
+    int median = median_class(picture, count);
+    if (median < 0)
+        return 1;
+    double sum = 0;
+    size_t counted = 0;
+    for (size_t i = 0; i < count; i++) {
+        double brightness = pixel_brightness(picture, i);
+        if (brightness > 0 && abs((int)floor(2 * log2(brightness)) + MIDDLE_CLASS - median) <= COUNTED_CLASSES) {
+            sum += log(brightness);
+            counted++;
+        }
+    }
+    return middle_gray / exp(sum / (double)counted);
+}
+
+/* Straight up to one half, then bending towards 1 without a kink. */
+static double roll_off(double value) {
+    return value <= 0.5 ? value : 1 - 0.5 * exp(1 - 2 * value);
+}
+
+void image_expose(const image *picture, unsigned char *bytes) {
+    size_t count = (size_t)picture->width * (size_t)picture->height;
+    double exposure = exposure_of(picture, count);
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            double value = roll_off(exposure * finite_or_black(picture->channels[c][i]));
+            bytes[3 * i + (size_t)c] = (unsigned char)(255 * image_srgb_encode(value) + 0.5);
+        }
+}

@@ -1,0 +1,60 @@
+/* One picture in memory, many formats on disk. */
+#ifndef IMAGE_IMAGE_H
+#define IMAGE_IMAGE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/report.h"
+#include "base/vector.h"
+
+/* Named planes of floats, rows from top to bottom. The first three are always R, G, B: radiance in W/sr/m^2 in
+ * Radiance's primaries. Others are layers with EXR's names: "standard_error.R", "depth.Z", "normal.X". */
+typedef struct image {
+    int width, height;
+    int channel_count;
+    char **channel_names;
+    float **channels;     /* channel_count planes of width * height */
+    double pixel_aspect;  /* height over width of a pixel, 1 for square */
+    const char *view;     /* as behind `VIEW=`, or null */
+    const char *command;  /* the command line that made it, or null */
+    const char *software; /* "Graze 0.1.0", or null */
+    double exposure;      /* of a picture read: radiance = pixel / exposure (already divided out); 1 for ours */
+    char *text;           /* what view, command and software of a picture read lie in; null for ours */
+} image;
+
+/* All planes zero, view, command and software null. The first three names are R, G, B whatever is given:
+ * `channel_names` may be null for three channels. Null when out of memory, or for a size below 1 x 1. */
+image *image_create(int width, int height, int channel_count, const char *const *channel_names);
+void image_destroy(image *); /* null is let pass */
+/* Gives the picture copies of these texts, each of which may be null. 0 when out of memory. */
+int image_keep_texts(image *, const char *view, const char *command, const char *software);
+/* The plane of that name, or null. */
+float *image_channel(const image *, const char *name);
+
+/* Writes Radiance HDR (32-bit_rle_rgbe) with its header to the stream; `name` stands in messages. NaN and negative
+ * values become 0, what is too large becomes the largest value the format holds. */
+graze_status image_write_hdr(const image *, FILE *, const char *name, const graze_report *);
+/* Writes the file in the format of its suffix: .hdr and .pic as above; .exr with all layers, float, Radiance's
+ * primaries as chromaticities, whiteLuminance 179, view, command and software as attributes; all others 8 bits a
+ * channel through OpenImageIO, exposed as image_expose does. The file appears whole or not at all (written under
+ * another name, then renamed); a failing write is a system error and leaves nothing behind. What is no regular file (a
+ * pipe, /dev/stdout, /dev/null) is written to directly; without a suffix it gets Radiance HDR. */
+graze_status image_write(const image *, const char *file, const graze_report *);
+/* Whether the suffix of `file` names a format that image_write will know, checked before a long rendering. */
+graze_status image_check_writable(const char *file, const graze_report *);
+/* Reads HDR itself, in any orientation, XYZE and foreign primaries converted to Radiance's; everything else through
+ * OpenImageIO: channels as named in the file (one channel: gray to R, G, B), values of pictures that are sRGB made
+ * linear; what is not finite in R, G, B becomes 0 (NaN) or the largest float. */
+graze_status image_read(image **, const char *file, const graze_report *);
+
+/* 8-bit sRGB for people: linear values times an exposure that puts the picture's log-average brightness at 0.18, softly
+ * rolled off towards white; 3 * width * height bytes. */
+void image_expose(const image *, unsigned char *bytes);
+
+/* Draws lines of equal luminance (cd/m^2 = 179 x brightness) over the exposed picture: `per_decade` levels a factor of
+ * ten (the paper's Figures 2 and 8), each level in a colour of its own; a legend of the levels at the left. Levels run
+ * over the picture's own range, at most four decades down from its maximum. */
+graze_status image_write_contours(const image *, const char *file, int per_decade, const graze_report *);
+
+#endif

@@ -1,0 +1,13 @@
+/* From a scene file's primitive to a material. */
+#ifndef MATERIAL_FROM_PRIMITIVE_H
+#define MATERIAL_FROM_PRIMITIVE_H
+
+#include "graze/material.h"
+#include "rad/scene_file.h"
+
+/* Reads `plastic`, `metal`, `plastic2` and `metal2`. Wrong arguments and all other types of material are errors.
+ * Parameters with which a surface may reflect more light than it receives are warned of and taken as they are, as in
+ * Radiance. */
+graze_status material_from_primitive(graze_material *, const rad_primitive *, const graze_report *);
+
+#endif

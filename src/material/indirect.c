@@ -1,0 +1,51 @@
+/* Indirect light: directions drawn for one lobe of a surface, with the weights of Eq. 16, and their densities. */
+#include "material/lobes.h"
+
+#define PI     3.1415926535897932
+#define INV_PI 0.31830988618379067
+
+static graze_surface_sample reject(const graze_surface *s) {
+    return (graze_surface_sample){s->n, {0, 0, 0}, 0};
+}
+
+/* The direction of a point of the unit disk on the hemisphere above it. */
+static graze_surface_sample sample_diffuse(const graze_surface *s, double u, double v) {
+    double radius = sqrt(u), angle = 2 * PI * v;
+    vec3 l = {radius * cos(angle), radius * sin(angle), sqrt(1 - u)};
+    frame f = material_frame(s);
+    return (graze_surface_sample){frame_to_world(&f, l), material_diffuse_reflectance(s, l.z), l.z * INV_PI};
+}
+
+static graze_surface_sample sample_glossy(const graze_surface *s, double u, double v, double w) {
+    graze_brdf_sample sample = graze_brdf_sample_pair(&s->lobe, s->local_view, u, v, w);
+    frame f = material_frame(s);
+    return (graze_surface_sample){frame_to_world(&f, sample.l), rgb_scale(sample.weight, s->specular), sample.density};
+}
+
+static graze_surface_sample sample_mirror(const graze_surface *s) {
+    double cosine = s->local_view.z;
+    if (!(cosine > 0))
+        return reject(s);
+    return (graze_surface_sample){vec3_add_scaled(vec3_negate(s->view), 2 * cosine, s->n), s->specular, 0};
+}
+
+graze_surface_sample graze_surface_sample_lobe(const graze_surface *surface, graze_lobe lobe, double s, double t,
+                                               double u) {
+    if (lobe == GRAZE_LOBE_DIFFUSE)
+        return sample_diffuse(surface, s, t);
+    if (lobe == GRAZE_LOBE_NONE || lobe != surface->specular_lobe)
+        return reject(surface);
+    return lobe == GRAZE_LOBE_GLOSSY ? sample_glossy(surface, s, t, u) : sample_mirror(surface);
+}
+
+double graze_surface_density(const graze_surface *s, graze_lobe lobe, graze_vec3 l) {
+    frame f = material_frame(s);
+    vec3 local = frame_to_local(&f, l);
+    if (!(local.z > 0))
+        return 0;
+    if (lobe == GRAZE_LOBE_DIFFUSE)
+        return local.z * INV_PI;
+    if (lobe == GRAZE_LOBE_GLOSSY && s->specular_lobe == GRAZE_LOBE_GLOSSY)
+        return graze_brdf_pair_density(&s->lobe, local, s->local_view);
+    return 0;
+}

@@ -1,0 +1,26 @@
+/* What the files of this folder share: the way between the world and the shading frame, and the reflectance in the
+ * frame. */
+#ifndef MATERIAL_LOBES_H
+#define MATERIAL_LOBES_H
+
+#include <float.h>
+
+#include "base/vector.h"
+#include "graze/material.h"
+
+static inline frame material_frame(const graze_surface *s) {
+    return (frame){s->x, s->y, s->n};
+}
+
+/* Infinity, where a product has left a double's range, becomes DBL_MAX. */
+static inline rgb material_saturate(rgb a) {
+    return (rgb){fmin(a.r, DBL_MAX), fmin(a.g, DBL_MAX), fmin(a.b, DBL_MAX)};
+}
+
+/* The reflectance of the diffuse part for light at `cosine` > 0. */
+rgb material_diffuse_reflectance(const graze_surface *, double cosine);
+
+/* graze_surface_value for a direction in the shading frame. */
+void material_local_value(const graze_surface *, vec3 l, rgb *diffuse, rgb *glossy);
+
+#endif

@@ -1,0 +1,25 @@
+/* The reflectance functions of a surface: how much light from l it sends to the viewer. */
+#include "material/lobes.h"
+
+#include "material/fresnel.h"
+
+#define INV_PI 0.31830988618379067
+
+rgb material_diffuse_reflectance(const graze_surface *s, double cosine) {
+    /* What the polish reflects of the incoming light does not get to the body below, just as on the way out. */
+    return s->fresnel ? rgb_scale(1 - material_fresnel(cosine), s->diffuse) : s->diffuse;
+}
+
+void material_local_value(const graze_surface *s, vec3 l, rgb *diffuse, rgb *glossy) {
+    *diffuse = *glossy = (rgb){0, 0, 0};
+    if (!(l.z > 0))
+        return;
+    *diffuse = rgb_scale(INV_PI, material_diffuse_reflectance(s, l.z));
+    if (s->specular_lobe == GRAZE_LOBE_GLOSSY)
+        *glossy = material_saturate(rgb_scale(graze_brdf_value(&s->lobe, l, s->local_view), s->specular));
+}
+
+void graze_surface_value(const graze_surface *s, graze_vec3 l, graze_rgb *diffuse, graze_rgb *glossy) {
+    frame f = material_frame(s);
+    material_local_value(s, frame_to_local(&f, l), diffuse, glossy);
+}

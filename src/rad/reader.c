@@ -1,0 +1,434 @@
+/* From text to primitives that are not linked yet. */
+#include "rad/reader.h"
+
+#include <ctype.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/number.h"
+#include "rad/words.h"
+#include "rad/xform.h"
+
+enum { DEPTH_MOST = 64, ERRORS_MOST = 20 };
+
+void rad_reader_begin(rad_reader *reader, arena *memory, const graze_report *report) {
+    *reader = (rad_reader){.memory = memory, .report = report, .last_type = RAD_POLYGON};
+}
+
+void rad_reader_end(rad_reader *reader) {
+    free(reader->reals);
+    free(reader->strings);
+}
+
+graze_status rad_reader_complain(rad_reader *reader, const place *where, const char *format, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    graze_status status = report_error(reader->report, where, "%s", text);
+    if (!reader->status)
+        reader->status = status;
+    return ++reader->error_count < ERRORS_MOST ? GRAZE_OK : reader->status;
+}
+
+rad_shown rad_show(const char *text, size_t length) {
+    rad_shown shown;
+    static const char more[] = "...";
+    size_t most = sizeof shown.text - sizeof more;
+    size_t kept = length < most ? length : most;
+    for (size_t i = 0; i < kept; ++i)
+        shown.text[i] = text[i] == '\n' ? ' ' : (unsigned char)text[i] < ' ' || text[i] == 127 ? '?' : text[i];
+    memcpy(shown.text + kept, kept < length ? more : "", kept < length ? sizeof more : 1);
+    return shown;
+}
+
+/* One input being read. */
+typedef struct source {
+    rad_reader *reader;
+    rad_words words;
+    const char *name;
+    const rad_context *context;
+    const rad_sink *sink;
+    bool any; /* primitives found */
+} source;
+
+static place place_at(const source *s, int line, int column) {
+    return (place){s->name, line, column, s->context->parent};
+}
+
+static const place *keep_place(rad_reader *reader, place where) {
+    place *kept = arena_allocate(reader->memory, sizeof *kept);
+    if (kept)
+        *kept = where;
+    return kept;
+}
+
+static bool word_is(const rad_word *word, const char *text) {
+    return strlen(text) == word->length && !memcmp(word->text, text, word->length);
+}
+
+#define SHOW(word) rad_show((word)->text, (word)->length).text
+
+/* ---- The words of one primitive ---- */
+
+/* Reads a word that must be there. Whatever is wrong, the rest of the input cannot be understood. */
+static graze_status need_word(source *s, rad_word *word, const place *start, const char *what) {
+    rad_word_status outcome = rad_words_next(&s->words, word);
+    if (outcome == RAD_WORD)
+        return GRAZE_OK;
+    const graze_report *report = s->reader->report;
+    place here = place_at(s, word->line, word->column);
+    switch (outcome) {
+    case RAD_WORD_OPEN:
+        return report_error(report, &here, "quote without end");
+    case RAD_WORD_ZERO:
+        return report_error(report, &here, "not a scene description: it has bytes of value zero");
+    case RAD_WORD_NO_MEMORY:
+        return report_out_of_memory(report);
+    default:
+        return report_error(report, start, "ends before the primitive's %s", what);
+    }
+}
+
+static graze_status keep_text(rad_reader *reader, const rad_word *word, const char **text) {
+    *text = arena_copy_text(reader->memory, word->text, word->length);
+    return *text ? GRAZE_OK : report_out_of_memory(reader->report);
+}
+
+static graze_status read_modifier(source *s, rad_raw *raw) {
+    rad_reader *reader = s->reader;
+    rad_word word;
+    graze_status status = need_word(s, &word, raw->where, "modifier");
+    if (status)
+        return status;
+    if (!reader->last_modifier || !word_is(&word, reader->last_modifier))
+        if (keep_text(reader, &word, &reader->last_modifier))
+            return GRAZE_SYSTEM_ERROR;
+    raw->modifier = reader->last_modifier;
+    return GRAZE_OK;
+}
+
+static graze_status read_type(source *s, rad_raw *raw) {
+    rad_reader *reader = s->reader;
+    rad_word word;
+    graze_status status = need_word(s, &word, raw->where, "type");
+    if (status)
+        return status;
+    if (word_is(&word, "alias")) {
+        raw->type = RAD_ALIAS;
+    } else if (word_is(&word, rad_type_name(reader->last_type)) ||
+               rad_type_find(word.text, word.length, &reader->last_type)) {
+        raw->type = (int)reader->last_type;
+    } else {
+        raw->type = RAD_UNKNOWN;
+        raw->broken = true;
+        place here = place_at(s, word.line, word.column);
+        status = rad_reader_complain(reader, &here, "unknown type \"%s\"", SHOW(&word));
+    }
+    return status;
+}
+
+static bool is_modifier(const rad_raw *raw) {
+    return raw->type >= RAD_TYPE_COUNT || !rad_type_is_surface((rad_type)raw->type);
+}
+
+static graze_status read_id(source *s, rad_raw *raw) {
+    rad_reader *reader = s->reader;
+    rad_word word;
+    graze_status status = need_word(s, &word, raw->where, "name");
+    if (status)
+        return status;
+    place here = place_at(s, word.line, word.column);
+    if (memchr(word.text, '\t', word.length)) {
+        status = rad_reader_complain(reader, &here, "illegal tab in name \"%s\"", SHOW(&word));
+        raw->broken = true;
+    } else if (is_modifier(raw) && (word_is(&word, "void") || word_is(&word, "inherit"))) {
+        status = rad_reader_complain(reader, &here, "\"%s\" cannot be the name of a modifier", SHOW(&word));
+        raw->broken = true;
+    }
+    return status ? status : keep_text(reader, &word, &raw->id);
+}
+
+/* "sphere ball" for messages. */
+static const char *describe(const rad_raw *raw, char text[120]) {
+    const char *type = raw->type == RAD_ALIAS ? "alias" : rad_type_name((rad_type)raw->type);
+    snprintf(text, 120, "%s %s", type, rad_show(raw->id, strlen(raw->id)).text);
+    return text;
+}
+
+static graze_status read_count(source *s, const rad_raw *raw, const char *what, uint32_t *count) {
+    char text[120];
+    rad_word word;
+    graze_status status = need_word(s, &word, raw->where, what);
+    if (status)
+        return status;
+    char digits[32];
+    int value = -1;
+    size_t kept = word.length < sizeof digits ? word.length : sizeof digits - 1;
+    memcpy(digits, word.text, kept);
+    digits[kept] = 0;
+    if (!text_to_integer(digits, &value) || value < 0) {
+        place here = place_at(s, word.line, word.column);
+        return report_error(s->reader->report, &here, "%s: \"%s\" is not a %s", describe(raw, text), SHOW(&word), what);
+    }
+    *count = (uint32_t)value;
+    return GRAZE_OK;
+}
+
+/* Grows with what has been read, not with what a count promises. */
+static void *grow(rad_reader *reader, void *array, size_t *capacity, size_t size) {
+    size_t wanted = *capacity ? 2 * *capacity : 64;
+    void *larger = realloc(array, wanted * size);
+    if (larger)
+        *capacity = wanted;
+    else
+        report_out_of_memory(reader->report);
+    return larger;
+}
+
+static graze_status read_strings(source *s, rad_raw *raw, uint32_t count) {
+    rad_reader *reader = s->reader;
+    for (uint32_t i = 0; i < count; ++i) {
+        rad_word word;
+        graze_status status = need_word(s, &word, raw->where, "last string argument");
+        if (status)
+            return status;
+        if (i == reader->string_capacity) {
+            const char **larger = grow(reader, reader->strings, &reader->string_capacity, sizeof *larger);
+            if (!larger)
+                return GRAZE_SYSTEM_ERROR;
+            reader->strings = larger;
+        }
+        if (keep_text(reader, &word, &reader->strings[i]))
+            return GRAZE_SYSTEM_ERROR;
+    }
+    raw->string_count = count;
+    if (count == 0)
+        return GRAZE_OK;
+    const char **kept = arena_allocate(reader->memory, count * sizeof *kept);
+    if (!kept)
+        return report_out_of_memory(reader->report);
+    memcpy(kept, reader->strings, count * sizeof *kept);
+    raw->strings = kept;
+    return GRAZE_OK;
+}
+
+/* Of integers there must be none; a primitive that has some is passed over. */
+static graze_status read_integers(source *s, rad_raw *raw) {
+    char text[120];
+    uint32_t count = 0;
+    graze_status status = read_count(s, raw, "number of integer arguments", &count);
+    if (status || count == 0)
+        return status;
+    raw->broken = true;
+    status = rad_reader_complain(s->reader, raw->where, "%s: %u integer arguments where there must be none",
+                                 describe(raw, text), (unsigned)count);
+    rad_word word;
+    for (uint32_t i = 0; i < count && !status; ++i)
+        status = need_word(s, &word, raw->where, "last integer argument");
+    return status;
+}
+
+static graze_status read_bad_real(source *s, rad_raw *raw) {
+    char text[120];
+    rad_word word;
+    graze_status status = need_word(s, &word, raw->where, "last real argument");
+    if (status || raw->broken)
+        return status;
+    raw->broken = true;
+    place here = place_at(s, word.line, word.column);
+    return rad_reader_complain(s->reader, &here, "%s: \"%s\" is not a number", describe(raw, text), SHOW(&word));
+}
+
+static graze_status read_reals(source *s, rad_raw *raw) {
+    rad_reader *reader = s->reader;
+    uint32_t count = 0;
+    graze_status status = read_count(s, raw, "number of real arguments", &count);
+    for (uint32_t i = 0; i < count && !status; ++i) {
+        if (i == reader->real_capacity) {
+            double *larger = grow(reader, reader->reals, &reader->real_capacity, sizeof *larger);
+            if (!larger)
+                return GRAZE_SYSTEM_ERROR;
+            reader->reals = larger;
+        }
+        reader->reals[i] = 0;
+        if (!rad_words_real(&s->words, &reader->reals[i]))
+            status = read_bad_real(s, raw);
+    }
+    if (status)
+        return status;
+    raw->real_count = count;
+    raw->reals = arena_allocate(reader->memory, count * sizeof *raw->reals);
+    if (!raw->reals)
+        return report_out_of_memory(reader->report);
+    if (count)
+        memcpy(raw->reals, reader->reals, count * sizeof *raw->reals);
+    return GRAZE_OK;
+}
+
+static graze_status check_strings(rad_reader *reader, rad_raw *raw, const rad_type_facts *facts) {
+    char text[120];
+    if (raw->string_count >= (uint32_t)facts->strings_least)
+        return GRAZE_OK;
+    raw->broken = true;
+    return rad_reader_complain(reader, raw->where, "%s: %u string arguments, but it needs %d or more",
+                               describe(raw, text), (unsigned)raw->string_count, facts->strings_least);
+}
+
+static graze_status check_reals(rad_reader *reader, rad_raw *raw, const rad_type_facts *facts) {
+    char text[120], wanted[48];
+    bool too_few = raw->real_count < (uint32_t)facts->reals_least;
+    bool too_many = facts->reals_most != RAD_ANY_COUNT && raw->real_count > (uint32_t)facts->reals_most;
+    if (!too_few && !too_many && raw->real_count % (uint32_t)facts->reals_step == 0)
+        return GRAZE_OK;
+    raw->broken = true;
+    if (facts->reals_step > 1)
+        snprintf(wanted, sizeof wanted, "%d, %d, ...", facts->reals_least, facts->reals_least + facts->reals_step);
+    else if (facts->reals_most == facts->reals_least)
+        snprintf(wanted, sizeof wanted, "%d", facts->reals_least);
+    else if (facts->reals_most == RAD_ANY_COUNT)
+        snprintf(wanted, sizeof wanted, "%d or more", facts->reals_least);
+    else
+        snprintf(wanted, sizeof wanted, "%d to %d", facts->reals_least, facts->reals_most);
+    return rad_reader_complain(reader, raw->where, "%s: %u real arguments, but it needs %s", describe(raw, text),
+                               (unsigned)raw->real_count, wanted);
+}
+
+static graze_status check_counts(rad_reader *reader, rad_raw *raw) {
+    if (raw->broken)
+        return GRAZE_OK;
+    const rad_type_facts *facts = rad_type_look_up((rad_type)raw->type);
+    graze_status status = check_strings(reader, raw, facts);
+    return status || raw->broken ? status : check_reals(reader, raw, facts);
+}
+
+static graze_status read_arguments(source *s, rad_raw *raw) {
+    if (raw->type == RAD_ALIAS)
+        return read_strings(s, raw, 1);
+    uint32_t count = 0;
+    graze_status status = read_count(s, raw, "number of string arguments", &count);
+    if (!status)
+        status = read_strings(s, raw, count);
+    if (!status)
+        status = read_integers(s, raw);
+    if (!status)
+        status = read_reals(s, raw);
+    return status ? status : check_counts(s->reader, raw);
+}
+
+static graze_status read_primitive(source *s, int line, int column) {
+    rad_raw raw = {.where = keep_place(s->reader, place_at(s, line, column))};
+    if (!raw.where)
+        return report_out_of_memory(s->reader->report);
+    s->any = true;
+    graze_status status = read_modifier(s, &raw);
+    if (!status)
+        status = read_type(s, &raw);
+    if (!status)
+        status = read_id(s, &raw);
+    if (!status)
+        status = read_arguments(s, &raw);
+    return status ? status : s->sink->take(s->sink->user, &raw);
+}
+
+/* ---- Commands ---- */
+
+static graze_status read_command(source *s, int line, int column) {
+    rad_reader *reader = s->reader;
+    ++s->words.next;
+    rad_word word;
+    rad_word_status outcome = rad_words_command(&s->words, &word);
+    place here = place_at(s, line, column);
+    if (outcome == RAD_WORD_ZERO)
+        return report_error(reader->report, &here, "not a scene description: it has bytes of value zero");
+    const char *command = outcome == RAD_WORD ? arena_copy_text(reader->memory, word.text, word.length) : NULL;
+    const place *where = keep_place(reader, here);
+    if (!command || !where)
+        return report_out_of_memory(reader->report);
+    s->any = true;
+    rad_context inner = {s->context->directory, where, s->context->depth + 1};
+    return rad_reader_command(reader, command, &inner, s->sink);
+}
+
+graze_status rad_reader_shell(rad_reader *reader, const char *command, const rad_context *context,
+                              const rad_sink *sink) {
+    char name[sizeof(rad_shown) + 1];
+    snprintf(name, sizeof name, "!%s", rad_show(command, strlen(command)).text);
+    const char *kept = arena_copy_text(reader->memory, name, strlen(name));
+    if (!kept)
+        return report_out_of_memory(reader->report);
+    rad_text text;
+    graze_status status = rad_input_command(&text, command, context->directory, context->parent, reader->report);
+    if (status)
+        return status;
+    status = rad_reader_text(reader, &text, kept, context, sink);
+    free(text.bytes);
+    return status;
+}
+
+graze_status rad_reader_command(rad_reader *reader, const char *command, const rad_context *context,
+                                const rad_sink *sink) {
+    rad_pipeline pipeline;
+    if (!rad_pipeline_split(&pipeline, command, reader->memory))
+        return report_out_of_memory(reader->report);
+    if (pipeline.stage_count == 0)
+        return rad_reader_shell(reader, command, context, sink);
+    return rad_xform_run(reader, &pipeline, context, sink);
+}
+
+/* ---- Whole inputs ---- */
+
+graze_status rad_reader_text(rad_reader *reader, const rad_text *text, const char *name, const rad_context *context,
+                             const rad_sink *sink) {
+    source s = {.reader = reader, .name = name, .context = context, .sink = sink};
+    place here = place_at(&s, 0, 0);
+    if (context->depth > DEPTH_MOST)
+        return report_error(reader->report, &here, "files and commands are nested more than %d deep", DEPTH_MOST);
+    rad_words_begin(&s.words, text->bytes, text->length);
+    graze_status status = GRAZE_OK;
+    while (!status) {
+        int line, column;
+        char first = rad_words_peek(&s.words, &line, &column);
+        if (!first && s.words.next == s.words.end)
+            break;
+        if (first == '#')
+            rad_words_skip_line(&s.words);
+        else if (first == '!')
+            status = read_command(&s, line, column);
+        else
+            status = read_primitive(&s, line, column);
+    }
+    rad_words_end(&s.words);
+    if (!status && !s.any)
+        report_warning(reader->report, &here, "no primitives");
+    return status;
+}
+
+graze_status rad_reader_file(rad_reader *reader, const char *path, const rad_context *context, const rad_sink *sink) {
+    const char *name = arena_copy_text(reader->memory, path, strlen(path));
+    if (!name)
+        return report_out_of_memory(reader->report);
+    rad_text text;
+    graze_status status = rad_input_file(&text, path, context->parent, reader->report);
+    if (status)
+        return status;
+    status = rad_reader_text(reader, &text, name, context, sink);
+    free(text.bytes);
+    return status;
+}
+
+graze_status rad_reader_standard_input(rad_reader *reader, const rad_context *context, const rad_sink *sink) {
+    static const char name[] = "standard input";
+    rad_text text;
+    graze_status status = rad_input_descriptor(&text, STDIN_FILENO, name, context->parent, reader->report);
+    if (status)
+        return status;
+    status = rad_reader_text(reader, &text, name, context, sink);
+    free(text.bytes);
+    return status;
+}

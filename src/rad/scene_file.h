@@ -1,0 +1,107 @@
+/* Radiance scene descriptions as data: reads .rad files and commands into a flat list of primitives. */
+#ifndef RAD_SCENE_FILE_H
+#define RAD_SCENE_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/report.h"
+
+/* All primitive types of the language, so that an unsupported one can be told from a misspelt one. */
+typedef enum rad_type {
+    RAD_SOURCE,
+    RAD_SPHERE,
+    RAD_BUBBLE,
+    RAD_POLYGON,
+    RAD_CONE,
+    RAD_CUP,
+    RAD_CYLINDER,
+    RAD_TUBE,
+    RAD_RING,
+    RAD_MESH,
+    RAD_INSTANCE,
+    RAD_LIGHT,
+    RAD_ILLUM,
+    RAD_GLOW,
+    RAD_SPOTLIGHT,
+    RAD_PLASTIC,
+    RAD_METAL,
+    RAD_TRANS,
+    RAD_PLASTIC2,
+    RAD_METAL2,
+    RAD_TRANS2,
+    RAD_ASHIK2,
+    RAD_WGMDFUNC,
+    RAD_DIELECTRIC,
+    RAD_INTERFACE,
+    RAD_GLASS,
+    RAD_MIRROR,
+    RAD_PRISM1,
+    RAD_PRISM2,
+    RAD_MIST,
+    RAD_PLASFUNC,
+    RAD_METFUNC,
+    RAD_TRANSFUNC,
+    RAD_BRTDFUNC,
+    RAD_PLASDATA,
+    RAD_METDATA,
+    RAD_TRANSDATA,
+    RAD_BSDF,
+    RAD_ABSDF,
+    RAD_ANTIMATTER,
+    RAD_TEXFUNC,
+    RAD_TEXDATA,
+    RAD_COLORFUNC,
+    RAD_BRIGHTFUNC,
+    RAD_COLORDATA,
+    RAD_BRIGHTDATA,
+    RAD_COLORPICT,
+    RAD_COLORTEXT,
+    RAD_BRIGHTTEXT,
+    RAD_SPECTRUM,
+    RAD_SPECFILE,
+    RAD_SPECFUNC,
+    RAD_SPECDATA,
+    RAD_SPECPICT,
+    RAD_MIXFUNC,
+    RAD_MIXDATA,
+    RAD_MIXPICT,
+    RAD_MIXTEXT,
+    RAD_TYPE_COUNT
+} rad_type;
+
+const char *rad_type_name(rad_type); /* as in scene files: "plastic2" */
+int rad_type_is_surface(rad_type);   /* source .. instance: may not be a modifier */
+
+/* As rad_primitive's modifier: `void`. */
+#define RAD_VOID (-1)
+
+typedef struct rad_primitive {
+    rad_type type;
+    int32_t modifier; /* index of the primitive that modifies this one, always smaller than its own; or RAD_VOID */
+    const char *id;
+    uint32_t string_count, real_count;
+    const char *const *strings;
+    const double *reals;
+    const place *where; /* of the first word of the primitive, parents and all */
+} rad_primitive;
+
+typedef struct rad_scene rad_scene;
+
+/* Reads the named scenes in order, as one description: each a .rad file, `!command` (run by the shell; `!xform` is done
+ * here), or `-` for standard input. Aliases are resolved: an alias appears as a primitive of its own with the type and
+ * arguments of what it stands for. Undefined modifiers, unknown types, wrong argument counts or malformed numbers, a
+ * failing command: errors with their place. All errors of a file that can be told apart are reported, up to 20, before
+ * this returns. */
+graze_status rad_scene_read(rad_scene **, const char *const *names, size_t count, const graze_report *);
+void rad_scene_destroy(rad_scene *);
+
+const rad_primitive *rad_scene_primitives(const rad_scene *, size_t *count);
+
+/* Reports an error about a primitive: "FILE:LINE:COLUMN: TYPE ID: TEXT". */
+graze_status rad_primitive_error(const graze_report *, const rad_primitive *, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void rad_primitive_warning(const graze_report *, const rad_primitive *, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,31 @@
+/* Radiance's transforms: similarity maps written as `-t x y z -rx 30 -s 2 -mx -i 3 ...`. */
+#ifndef RAD_TRANSFORM_H
+#define RAD_TRANSFORM_H
+
+#include <stdbool.h>
+
+#include "base/report.h"
+#include "base/vector.h"
+
+/* p' = p m, row vectors: m[3] is the translation. `scale` > 0 is the length of a unit vector's image; mirrored maps
+ * have a linear part of negative determinant. */
+typedef struct rad_transform {
+    double m[4][3];
+    double scale;
+    bool mirrored;
+} rad_transform;
+
+rad_transform rad_transform_identity(void);
+rad_transform rad_transform_then(const rad_transform *first, const rad_transform *second);
+vec3 rad_transform_point(const rad_transform *, vec3);
+vec3 rad_transform_vector(const rad_transform *, vec3); /* no translation; scaled */
+
+/* Reads the transform operations that `words` begin with and returns how many words they take: up to the first word
+ * that is none, or whose arguments are missing or malformed, or a scale of zero. *in_range tells whether the map is one
+ * that doubles can hold; where it is not, *transform is the identity. */
+int rad_transform_leading(rad_transform *transform, const char *const *words, int count, bool *in_range);
+/* Reads words that must all be transform operations; anything else is an error naming the word. */
+graze_status rad_transform_parse(rad_transform *, const char *const *words, int count, const place *where,
+                                 const graze_report *);
+
+#endif

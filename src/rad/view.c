@@ -1,0 +1,380 @@
+/* Views: options, files, and rays. */
+#include "rad/view.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angle.h"
+#include "base/number.h"
+
+static const double tiny = 1e-6;          /* Radiance's slack on limits */
+static const double largest = 1e100;      /* of any parameter: products of them stay in a double's range */
+static const double smallest_sine = 1e-9; /* between the up vector and the direction, for their plane to be known */
+
+rad_view rad_view_default(void) {
+    return (rad_view){.type = 'v', .direction = {0, 1, 0}, .up = {0, 0, 1}, .horizontal = 45, .vertical = 45};
+}
+
+/* ---- Options ---- */
+
+static int aim_at_number(double *targets[3], double *number) {
+    targets[0] = targets[1] = targets[2] = number;
+    return 1;
+}
+
+static int aim_at_vector(double *targets[3], vec3 *vector) {
+    targets[0] = &vector->x;
+    targets[1] = &vector->y;
+    targets[2] = &vector->z;
+    return 3;
+}
+
+/* Where the option's numbers go, and how many they are; 0 where it is none of those with numbers. */
+static int option_numbers(rad_view *v, const char *option, double *targets[3]) {
+    if (option[0] != '-' || option[1] != 'v' || !option[2] || option[3])
+        return 0;
+    switch (option[2]) {
+    case 'p':
+        return aim_at_vector(targets, &v->point);
+    case 'd':
+        return aim_at_vector(targets, &v->direction);
+    case 'u':
+        return aim_at_vector(targets, &v->up);
+    case 'h':
+        return aim_at_number(targets, &v->horizontal);
+    case 'v':
+        return aim_at_number(targets, &v->vertical);
+    case 'o':
+        return aim_at_number(targets, &v->fore);
+    case 'a':
+        return aim_at_number(targets, &v->aft);
+    case 's':
+        return aim_at_number(targets, &v->shift);
+    case 'l':
+        return aim_at_number(targets, &v->lift);
+    default:
+        return 0;
+    }
+}
+
+graze_status rad_view_option(rad_view *view, int count, const char *const *words, int *used, const place *where,
+                             const graze_report *report) {
+    *used = 0;
+    if (count <= 0)
+        return GRAZE_OK;
+    const char *option = words[0];
+    if (!strncmp(option, "-vt", 3)) {
+        if (!option[3] || option[4])
+            return report_error(report, where, "option '%.64s': the view's type must be one letter, as in -vtv",
+                                option);
+        view->type = option[3];
+        *used = 1;
+        return GRAZE_OK;
+    }
+    double *targets[3], values[3];
+    int needed = option_numbers(view, option, targets);
+    if (needed == 0)
+        return GRAZE_OK;
+    for (int i = 0; i < needed; ++i) {
+        if (i + 1 >= count)
+            return report_error(report, where, "option '%s': %d number%s missing", option, needed - i,
+                                needed - i > 1 ? "s" : "");
+        if (!text_to_real(words[i + 1], &values[i]))
+            return report_error(report, where, "option '%s': '%.64s' is not a number", option, words[i + 1]);
+    }
+    for (int i = 0; i < needed; ++i)
+        *targets[i] = values[i];
+    *used = 1 + needed;
+    return GRAZE_OK;
+}
+
+/* ---- View files ---- */
+
+/* Whether the line begins with `VIEW=` or the name of a program that takes a view. */
+static bool is_view_line(const char *line) {
+    static const char *const names[] = {"VIEW=", "rpict", "rvu", "rpiece", "rxpiece", "pinterp", "rview", "gpict"};
+    const char *end = line + strcspn(line, " \t\r\v\f");
+    const char *name = line;
+    for (const char *p = line; p < end; ++p)
+        if (*p == '/')
+            name = p + 1;
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (!strncmp(name, names[i], strlen(names[i])))
+            return true;
+    return false;
+}
+
+static bool is_blank(char c) {
+    return c && strchr(" \t\r\v\f", c);
+}
+
+/* Applies the view options of the line, passing over everything else; gives their number. */
+static int read_view_line(rad_view *view, char *line) {
+    enum { WORDS_MOST = 4 };
+    int found = 0;
+    char *p = line;
+    for (;;) {
+        while (is_blank(*p))
+            ++p;
+        if (!*p)
+            return found;
+        /* A copy of an option's longest form, for the words of the line are not terminated. */
+        char copy[WORDS_MOST * 64];
+        const char *words[WORDS_MOST];
+        const char *ends[WORDS_MOST];
+        int count = 0;
+        char *out = copy;
+        for (char *q = p; *q && count < WORDS_MOST;) {
+            size_t length = strcspn(q, " \t\r\v\f");
+            if (length >= 64)
+                break;
+            memcpy(out, q, length);
+            out[length] = 0;
+            words[count] = out;
+            out += length + 1;
+            q += length;
+            ends[count++] = q;
+            while (is_blank(*q))
+                ++q;
+        }
+        int used = 0;
+        if (count > 0 && *p == '-' && rad_view_option(view, count, words, &used, NULL, NULL) == GRAZE_OK && used > 0) {
+            p += ends[used - 1] - p;
+            ++found;
+        } else {
+            p += strcspn(p, " \t\r\v\f");
+        }
+    }
+}
+
+/* A header's next line, without its end; false at the header's or the file's end. */
+static bool next_line(FILE *file, char **line, size_t *capacity) {
+    ssize_t length = getline(line, capacity, file);
+    if (length <= 0)
+        return false;
+    if ((*line)[length - 1] == '\n')
+        (*line)[--length] = 0;
+    if (length > 0 && (*line)[length - 1] == '\r')
+        (*line)[--length] = 0;
+    return length > 0;
+}
+
+graze_status rad_view_read(rad_view *view, const char *file, const graze_report *report) {
+    bool is_standard_input = !strcmp(file, "-");
+    FILE *in = is_standard_input ? stdin : fopen(file, "r");
+    if (!in)
+        return report_system_error(report, NULL, "cannot open view file %s", file);
+    char *line = NULL;
+    size_t capacity = 0;
+    int found = 0;
+    while (next_line(in, &line, &capacity))
+        if (is_view_line(line))
+            found += read_view_line(view, line);
+    graze_status status = GRAZE_OK;
+    if (ferror(in))
+        status = report_system_error(report, NULL, "cannot read view file %s", file);
+    else if (found == 0)
+        status = report_error(report, NULL, "no view in %s", file);
+    free(line);
+    if (!is_standard_input)
+        fclose(in);
+    return status;
+}
+
+/* ---- From parameters to rays ---- */
+
+static bool is_in_range(const rad_view *v) {
+    const double values[] = {v->point.x,     v->point.y, v->point.z, v->direction.x, v->direction.y,
+                             v->direction.z, v->up.x,    v->up.y,    v->up.z,        v->horizontal,
+                             v->vertical,    v->shift,   v->lift,    v->fore,        v->aft};
+    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
+        if (!(fabs(values[i]) <= largest))
+            return false;
+    return true;
+}
+
+/* Stays away from under- and overflow of the square. */
+static double safe_length(vec3 v) {
+    double most = vec3_max_abs(v);
+    return most > 0 ? most * vec3_length(vec3_make(v.x / most, v.y / most, v.z / most)) : 0;
+}
+
+static vec3 safe_normalize(vec3 v) {
+    double most = vec3_max_abs(v);
+    return vec3_normalize(vec3_make(v.x / most, v.y / most, v.z / most));
+}
+
+/* The picture's extents at distance 1 from the eye (of parallel views, in the scene; of angular ones, in radians).
+ * Null, or what is wrong. */
+static const char *picture_size(const rad_view *v, double *right, double *above) {
+    static const char bad_horizontal[] = "illegal horizontal view size", bad_vertical[] = "illegal vertical view size";
+    double half_right = angle_radians(v->horizontal / 2), half_above = angle_radians(v->vertical / 2);
+    double most_right, most_above;
+    switch (v->type) {
+    case 'l':
+        most_right = most_above = largest;
+        *right = v->horizontal;
+        *above = v->vertical;
+        break;
+    case 'v':
+        most_right = most_above = 180 - 2 * tiny;
+        *right = 2 * tan(half_right);
+        *above = 2 * tan(half_above);
+        break;
+    case 'c':
+        most_right = 360 + tiny;
+        most_above = 180 - 2 * tiny;
+        *right = 2 * half_right;
+        *above = 2 * tan(half_above);
+        break;
+    case 'a':
+        most_right = most_above = 360 + tiny;
+        *right = 2 * half_right;
+        *above = 2 * half_above;
+        break;
+    case 'h':
+        most_right = most_above = 180 + tiny;
+        *right = 2 * sin(half_right);
+        *above = 2 * sin(half_above);
+        break;
+    case 's':
+        most_right = most_above = 360 - 2 * tiny;
+        *right = 2 * tan(half_right / 2);
+        *above = 2 * tan(half_above / 2);
+        break;
+    default:
+        return "unknown view type";
+    }
+    if (v->horizontal <= tiny || v->horizontal > most_right)
+        return bad_horizontal;
+    return v->vertical <= tiny || v->vertical > most_above ? bad_vertical : NULL;
+}
+
+static const char *prepare(rad_view *v) {
+    if (!is_in_range(v))
+        return "view parameter out of range";
+    if (v->fore < -tiny || v->aft < -tiny || (v->aft > tiny && v->aft <= v->fore))
+        return "illegal fore/aft clipping plane";
+    v->focus = safe_length(v->direction);
+    if (v->focus == 0)
+        return "zero view direction";
+    v->axis = safe_normalize(v->direction);
+    if (vec3_max_abs(v->up) == 0)
+        return "zero view up vector";
+    v->up = safe_normalize(v->up);
+    vec3 right = vec3_cross(v->axis, v->up);
+    if (vec3_length(right) < smallest_sine)
+        return "view up parallel to view direction";
+    right = vec3_normalize(right);
+    double right_size, above_size;
+    const char *trouble = picture_size(v, &right_size, &above_size);
+    if (trouble)
+        return trouble;
+    bool by_angle = v->type == 'a' || v->type == 's';
+    v->above = vec3_scale(by_angle ? 1 : above_size, vec3_cross(right, v->axis));
+    v->right = vec3_scale(by_angle || v->type == 'c' ? 1 : right_size, right);
+    v->right_squared = right_size * right_size;
+    v->above_squared = above_size * above_size;
+    return NULL;
+}
+
+graze_status rad_view_prepare(rad_view *view, const graze_report *report) {
+    const char *trouble = prepare(view);
+    return trouble ? report_error(report, NULL, "%s", trouble) : GRAZE_OK;
+}
+
+double rad_view_aspect(const rad_view *v) {
+    return sqrt(v->above_squared / v->right_squared);
+}
+
+static vec3 combine(const rad_view *v, double along, double x, double y) {
+    return vec3_add_scaled(vec3_add_scaled(vec3_scale(along, v->axis), x, v->right), y, v->above);
+}
+
+/* The direction to (x, y), measured from the picture's centre; its length tells how distances to clipping surfaces
+ * stretch. False where there is none. */
+static bool direction_at(const rad_view *v, double x, double y, vec3 *direction) {
+    double z, square, angle, stretch;
+    switch (v->type) {
+    case 'l':
+        *direction = v->axis;
+        return true;
+    case 'v':
+        *direction = combine(v, 1, x, y);
+        return true;
+    case 'c':
+        angle = angle_radians(x * v->horizontal);
+        *direction = combine(v, cos(angle), sin(angle), y);
+        return true;
+    case 'h':
+        square = x * x * v->right_squared + y * y * v->above_squared;
+        z = 1 - square;
+        *direction = combine(v, sqrt(fmax(z, 0)), x, y);
+        return z >= 0;
+    case 'a':
+        x *= v->horizontal / 180;
+        y *= v->vertical / 180;
+        square = x * x + y * y;
+        angle = PI * sqrt(square);
+        stretch = angle > 0 ? PI * sin(angle) / angle : PI;
+        *direction = combine(v, cos(angle), stretch * x, stretch * y);
+        return square <= 1;
+    default: /* 's' */
+        x *= sqrt(v->right_squared);
+        y *= sqrt(v->above_squared);
+        square = x * x + y * y;
+        z = (1 - square) / (1 + square);
+        *direction = combine(v, z, 2 / (1 + square) * x, 2 / (1 + square) * y);
+        return true;
+    }
+}
+
+bool rad_view_ray(const rad_view *v, double x, double y, vec3 *origin, vec3 *direction, double *limit) {
+    x += v->shift - 0.5;
+    y += v->lift - 0.5;
+    *origin = v->point;
+    *limit = 0;
+    if (!direction_at(v, x, y, direction))
+        return false;
+    if (v->type == 'l')
+        *origin = vec3_add(*origin, combine(v, 0, x, y));
+    *origin = vec3_add_scaled(*origin, v->fore, *direction);
+    /* Clipping planes of perspective views and cylinders of panoramas are further away towards the picture's edge. */
+    double length = v->type == 'v' || v->type == 'c' ? vec3_length(*direction) : 1;
+    *direction = vec3_normalize(*direction);
+    if (v->aft > tiny)
+        *limit = (v->aft - v->fore) * length;
+    return true;
+}
+
+/* ---- Pictures ---- */
+
+void rad_view_print(const rad_view *v, char *buffer, size_t size) {
+    /* Points, not commas, whatever the program's locale. */
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    locale_t former = plain ? uselocale(plain) : (locale_t)0;
+    snprintf(buffer, size,
+             " -vt%c -vp %.7g %.7g %.7g -vd %.7g %.7g %.7g -vu %.5g %.5g %.5g -vh %.5g -vv %.5g -vo %.5g -va %.5g"
+             " -vs %.5g -vl %.5g",
+             v->type, v->point.x, v->point.y, v->point.z, v->direction.x, v->direction.y, v->direction.z, v->up.x,
+             v->up.y, v->up.z, v->horizontal, v->vertical, v->fore, v->aft, v->shift, v->lift);
+    if (plain) {
+        uselocale(former);
+        freelocale(plain);
+    }
+}
+
+void rad_view_fit(const rad_view *view, double *pixel_aspect, int *width, int *height) {
+    double aspect = rad_view_aspect(view);
+    if (*width <= 0 || *height <= 0)
+        return;
+    if (*pixel_aspect <= tiny)
+        *pixel_aspect = aspect * *width / *height;
+    else if (aspect * *width > *pixel_aspect * *height)
+        *width = (int)(*height / aspect * *pixel_aspect + 0.5);
+    else
+        *height = (int)(*width * aspect / *pixel_aspect + 0.5);
+}

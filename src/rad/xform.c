@@ -1,0 +1,417 @@
+/* xform, done here: options, arrays and the transform of a whole scene. */
+#include "rad/xform.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "rad/filter.h"
+#include "rad/path.h"
+#include "rad/words.h"
+
+enum {
+    KEPT_FILES = 16,          /* an array reads each of its files once, if they are not more */
+    INSTANCES_MOST = 10000000 /* of one command: a slip of the finger should not fill the memory */
+};
+
+/* Primitives that are needed again, or that the next stage of a pipeline waits for. */
+typedef struct list {
+    rad_raw *items;
+    size_t count, capacity;
+} list;
+
+/* One stage of a pipeline being done. */
+typedef struct job {
+    rad_reader *reader;
+    const rad_context *context;
+    const rad_sink *sink;
+    list *input; /* its standard input; or null: there is nothing on it */
+    bool once;   /* no array and no argument file: everything is read and transformed once */
+    long instances;
+    struct {
+        const char *name;
+        bool expand;
+        list primitives;
+    } files[KEPT_FILES];
+    int file_count, next_file;
+} job;
+
+/* ---- Lists ---- */
+
+typedef struct list_sink {
+    rad_reader *reader;
+    list *list;
+} list_sink;
+
+static graze_status append(void *user, rad_raw *raw) {
+    list_sink *s = user;
+    list *l = s->list;
+    if (l->count == l->capacity) {
+        size_t capacity = l->capacity ? 2 * l->capacity : 64;
+        rad_raw *items = realloc(l->items, capacity * sizeof *items);
+        if (!items)
+            return report_out_of_memory(s->reader->report);
+        l->items = items;
+        l->capacity = capacity;
+    }
+    l->items[l->count++] = *raw;
+    return GRAZE_OK;
+}
+
+static void list_free(list *l) {
+    free(l->items);
+    *l = (list){0};
+}
+
+/* ---- Primitives through the filter ---- */
+
+typedef struct filter_sink {
+    rad_reader *reader;
+    const rad_filter *filter;
+    const rad_sink *sink;
+} filter_sink;
+
+static graze_status take_through_filter(void *user, rad_raw *raw) {
+    filter_sink *s = user;
+    graze_status status = rad_filter_apply(s->filter, s->reader, raw);
+    return status ? status : s->sink->take(s->sink->user, raw);
+}
+
+/* Sends copies of a list's primitives through the filter: the list is needed again. */
+static graze_status filter_list(const job *j, const list *l, filter_sink *filtered) {
+    graze_status status = GRAZE_OK;
+    for (size_t i = 0; i < l->count && !status; ++i) {
+        rad_raw raw = l->items[i];
+        if (raw.real_count && !j->once) {
+            double *reals = arena_allocate(j->reader->memory, raw.real_count * sizeof *reals);
+            if (!reals)
+                return report_out_of_memory(j->reader->report);
+            memcpy(reals, raw.reals, raw.real_count * sizeof *reals);
+            raw.reals = reals;
+        }
+        status = take_through_filter(filtered, &raw);
+    }
+    return status;
+}
+
+/* ---- Files ---- */
+
+/* xform goes to the file for the commands in it, unless it leaves them as they are. */
+static graze_status read_file(const job *j, const char *name, bool expand, const rad_sink *sink) {
+    arena *memory = j->reader->memory;
+    const graze_report *report = j->reader->report;
+    bool found;
+    const char *path = rad_path_find(memory, j->context->directory, name, &found);
+    if (!path)
+        return report_out_of_memory(report);
+    if (!found) {
+        errno = ENOENT;
+        return report_system_error(report, j->context->parent, "xform: cannot find file \"%s\"",
+                                   rad_show(name, strlen(name)).text);
+    }
+    if (!strncmp(path, "./", 2))
+        path += 2;
+    rad_context inner = *j->context;
+    if (expand) {
+        bool own;
+        inner.directory = rad_path_directory(memory, path, &own);
+        if (!inner.directory && !own)
+            return report_out_of_memory(report);
+    }
+    return rad_reader_file(j->reader, path, &inner, sink);
+}
+
+static graze_status keep_file(job *j, const char *name, bool expand, const list **primitives) {
+    for (int i = 0; i < j->file_count; ++i)
+        if (j->files[i].expand == expand && !strcmp(j->files[i].name, name)) {
+            *primitives = &j->files[i].primitives;
+            return GRAZE_OK;
+        }
+    int room = j->next_file;
+    j->next_file = (room + 1) % KEPT_FILES;
+    if (j->file_count < KEPT_FILES)
+        ++j->file_count;
+    list *l = &j->files[room].primitives;
+    list_free(l);
+    j->files[room].name = name;
+    j->files[room].expand = expand;
+    *primitives = l;
+    list_sink kept = {j->reader, l};
+    return read_file(j, name, expand, &(rad_sink){append, &kept});
+}
+
+static graze_status filter_file(job *j, const char *name, bool expand, filter_sink *filtered) {
+    if (j->once)
+        return read_file(j, name, expand, &(rad_sink){take_through_filter, filtered});
+    const list *primitives = NULL;
+    graze_status status = keep_file(j, name, expand, &primitives);
+    return status ? status : filter_list(j, primitives, filtered);
+}
+
+/* ---- The command line ---- */
+
+static graze_status command_line_error(const job *j, const char *word) {
+    return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s'",
+                        rad_show(word, strlen(word)).text);
+}
+
+/* Reads the options before the transform; *used tells how many words they are. */
+static graze_status read_options(const job *j, const char *const *words, int count, rad_filter *filter, bool *expand,
+                                 int *used) {
+    arena *memory = j->reader->memory;
+    int i = 1;
+    for (; i < count && words[i][0] == '-'; ++i) {
+        const char *option = words[i];
+        if (!strcmp(option, "-m") && i + 1 < count) {
+            ++i;
+            if (!filter->modifier && !(filter->modifier = arena_copy_text(memory, words[i], strlen(words[i]))))
+                return report_out_of_memory(j->reader->report);
+        } else if (!strcmp(option, "-n") && i + 1 < count) {
+            ++i;
+            if (!filter->prefix)
+                filter->prefix = words[i];
+            else if (!(filter->prefix = rad_join_names(memory, filter->prefix, words[i])))
+                return report_out_of_memory(j->reader->report);
+        } else if (!strcmp(option, "-c")) {
+            *expand = false;
+        } else if (!strcmp(option, "-e")) {
+            *expand = true;
+        } else if (!strcmp(option, "-I")) {
+            filter->invert = !filter->invert;
+        } else {
+            break;
+        }
+    }
+    *used = i;
+    return GRAZE_OK;
+}
+
+/* One run of the program, without -a and -f. */
+static graze_status run_once(job *j, const char *const *words, int count) {
+    const graze_report *report = j->reader->report;
+    if (++j->instances > INSTANCES_MOST)
+        return report_error(report, j->context->parent, "xform: more than %d instances", INSTANCES_MOST);
+    rad_filter filter = {0};
+    bool expand = true, in_range;
+    int used = 0;
+    graze_status status = read_options(j, words, count, &filter, &expand, &used);
+    if (status)
+        return status;
+    filter.words = words + used;
+    filter.word_count = rad_transform_leading(&filter.transform, words + used, count - used, &in_range);
+    used += filter.word_count;
+    if (used < count && words[used][0] == '-')
+        return command_line_error(j, words[used]);
+    if (!in_range)
+        return report_error(report, j->context->parent, "xform: transform out of range");
+    filter_sink filtered = {j->reader, &filter, j->sink};
+    if (used == count && j->input)
+        return filter_list(j, j->input, &filtered);
+    if (used == count)
+        report_warning(report, j->context->parent, "xform: no file, and nothing on standard input");
+    for (; used < count && !status; ++used)
+        status = filter_file(j, words[used], expand, &filtered);
+    return status;
+}
+
+static graze_status run(job *j, const char *const *words, int count, int depth);
+
+static int find_word(const char *const *words, int count, const char *wanted) {
+    for (int i = 1; i < count; ++i)
+        if (!strcmp(words[i], wanted))
+            return i;
+    return 0;
+}
+
+/* Puts the instance's number behind every prefix there is, or only the first, or inserts a prefix of its own. `words`
+ * must have room for two more; `name` for the longest of them and the number. */
+static void number_prefix(const char **words, int *count, bool every, const char *otherwise, int number, char *name,
+                          size_t room) {
+    const char *former = NULL;
+    for (int i = 1; i + 1 < *count; ++i)
+        if (!strcmp(words[i], "-n") && (every || !former))
+            former = words[i + 1];
+    if (!former) {
+        memmove(words + 3, words + 1, (size_t)(*count - 1) * sizeof *words);
+        *count += 2;
+        words[1] = "-n";
+        words[2] = name;
+        snprintf(name, room, "%s%d", otherwise, number);
+        return;
+    }
+    snprintf(name, room, "%s.%d", former, number);
+    bool done = false;
+    for (int i = 1; i + 1 < *count && !done; ++i)
+        if (!strcmp(words[i], "-n")) {
+            words[++i] = name;
+            done = !every;
+        }
+}
+
+enum { NUMBER_ROOM = 16 }; /* for a point, an int and a zero byte */
+
+static size_t longest(const char *const *words, int count) {
+    size_t most = 0;
+    for (int i = 0; i < count; ++i) {
+        size_t length = strlen(words[i]);
+        most = length > most ? length : most;
+    }
+    return most;
+}
+
+/* `-a n transforms`: the command with `-i 0`, `-i 1` ... `-i n-1` in its place. */
+static graze_status run_array(job *j, const char *const *words, int count, int at, int depth) {
+    int n;
+    if (at + 1 >= count || !text_to_integer(words[at + 1], &n) || n <= 0)
+        return report_error(j->reader->report, j->context->parent, "xform: missing count for -a option");
+    const char **instance = malloc(((size_t)count + 2) * sizeof *instance);
+    size_t room = longest(words, count) + NUMBER_ROOM;
+    char *name = malloc(room);
+    graze_status status = GRAZE_OK;
+    if (!instance || !name)
+        status = report_out_of_memory(j->reader->report);
+    for (int i = 0; instance && name && i < n && !status; ++i) {
+        char digits[NUMBER_ROOM];
+        snprintf(digits, sizeof digits, "%d", i);
+        memcpy(instance, words, (size_t)count * sizeof *instance);
+        instance[at] = "-i";
+        instance[at + 1] = digits;
+        int instance_count = count;
+        number_prefix(instance, &instance_count, true, "a", i, name, room);
+        status = run(j, instance, instance_count, depth + 1);
+    }
+    free(instance);
+    free(name);
+    return status;
+}
+
+/* Splits one line of an argument file into words behind words[*count]. */
+static graze_status split_line(const job *j, const char *line, size_t length, const char **words, int *count) {
+    if (*line == '!') {
+        ++line;
+        --length;
+    }
+    if (!strncmp(line, "xform ", 6)) {
+        line += 6;
+        length -= 6;
+    }
+    rad_words reading;
+    rad_words_begin(&reading, line, length);
+    rad_word word;
+    rad_word_status outcome;
+    graze_status status = GRAZE_OK;
+    while (!status && (outcome = rad_words_next(&reading, &word)) != RAD_WORD_NONE) {
+        if (outcome == RAD_WORD && word.length == 1 && *word.text == '\\')
+            continue; /* before a line's end: the line goes on */
+        const char *kept = outcome == RAD_WORD ? arena_copy_text(j->reader->memory, word.text, word.length) : NULL;
+        if (kept)
+            words[(*count)++] = kept;
+        else if (outcome == RAD_WORD || outcome == RAD_WORD_NO_MEMORY)
+            status = report_out_of_memory(j->reader->report);
+        else
+            status = report_error(j->reader->report, j->context->parent, "xform: bad line in argument file: %s",
+                                  rad_show(line, length).text);
+    }
+    rad_words_end(&reading);
+    return status;
+}
+
+/* `-f file`: the command with each line of the file in its place, in turn. */
+static graze_status run_line(job *j, const char *const *words, int count, int at, const rad_word *line, int number,
+                             int depth) {
+    arena *memory = j->reader->memory;
+    size_t most = (size_t)count + line->length / 2 + 4;
+    const char **instance = arena_allocate(memory, most * sizeof *instance);
+    char *text = arena_copy_text(memory, line->text, line->length);
+    size_t room = longest(words, count) + line->length + NUMBER_ROOM;
+    char *name = arena_allocate(memory, room);
+    if (!instance || !text || !name)
+        return report_out_of_memory(j->reader->report);
+    int instance_count = at;
+    memcpy(instance, words, (size_t)at * sizeof *instance);
+    graze_status status = split_line(j, text, line->length, instance, &instance_count);
+    if (status)
+        return status;
+    size_t tail = (size_t)(count - at - 2);
+    memcpy(instance + instance_count, words + at + 2, tail * sizeof *instance);
+    instance_count += (int)tail;
+    number_prefix(instance, &instance_count, false, "i", number, name, room);
+    return run(j, instance, instance_count, depth + 1);
+}
+
+static graze_status run_file(job *j, const char *const *words, int count, int at, int depth) {
+    const graze_report *report = j->reader->report;
+    if (at + 1 >= count || words[at + 1][0] == '-')
+        return report_error(report, j->context->parent, "xform: missing file for -f option");
+    const char *path = rad_path_resolve(j->reader->memory, j->context->directory, words[at + 1]);
+    if (!path)
+        return report_out_of_memory(report);
+    rad_text text;
+    graze_status status = rad_input_file(&text, path, j->context->parent, report);
+    if (status)
+        return status;
+    rad_words lines;
+    rad_words_begin(&lines, text.bytes, text.length);
+    int number = 0;
+    while (!status && lines.next < lines.end) {
+        rad_word line;
+        rad_word_status outcome = rad_words_command(&lines, &line);
+        if (outcome != RAD_WORD)
+            status = outcome == RAD_WORD_ZERO
+                         ? report_error(report, j->context->parent, "xform: %s is no argument file", path)
+                         : report_out_of_memory(report);
+        else if (line.length > 0 && line.text[0] != '#')
+            status = run_line(j, words, count, at, &line, number++, depth);
+    }
+    if (!status && number == 0)
+        status = report_error(report, j->context->parent, "xform: empty argument file \"%s\"", path);
+    rad_words_end(&lines);
+    free(text.bytes);
+    return status;
+}
+
+static graze_status run(job *j, const char *const *words, int count, int depth) {
+    enum { DEPTH_MOST = 64 };
+    int file = find_word(words, count, "-f"), array = find_word(words, count, "-a");
+    if (!file && !array)
+        return run_once(j, words, count);
+    if (depth > DEPTH_MOST)
+        return report_error(j->reader->report, j->context->parent,
+                            "xform: arrays and argument files are nested more than %d deep", DEPTH_MOST);
+    return file ? run_file(j, words, count, file, depth) : run_array(j, words, count, array, depth);
+}
+
+static graze_status run_stage(rad_reader *reader, const rad_stage *stage, const rad_context *context, list *input,
+                              const rad_sink *sink) {
+    job j = {.reader = reader, .context = context, .sink = sink, .input = input};
+    j.once = !find_word(stage->words, stage->count, "-f") && !find_word(stage->words, stage->count, "-a");
+    graze_status status = run(&j, stage->words, stage->count, 0);
+    for (int i = 0; i < KEPT_FILES; ++i)
+        list_free(&j.files[i].primitives);
+    return status;
+}
+
+graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, const rad_context *context,
+                           const rad_sink *sink) {
+    list passed[2] = {{0}, {0}}; /* from one stage to the next, in turn */
+    list *input = NULL;
+    graze_status status = GRAZE_OK;
+    if (pipeline->front) {
+        input = &passed[1];
+        list_sink kept = {reader, input};
+        status = rad_reader_shell(reader, pipeline->front, context, &(rad_sink){append, &kept});
+    }
+    for (int i = 0; i < pipeline->stage_count && !status; ++i) {
+        list *output = &passed[i % 2];
+        list_sink kept = {reader, output};
+        bool last = i == pipeline->stage_count - 1;
+        output->count = 0;
+        status = run_stage(reader, &pipeline->stages[i], context, input, last ? sink : &(rad_sink){append, &kept});
+        input = output;
+    }
+    list_free(&passed[0]);
+    list_free(&passed[1]);
+    return status;
+}

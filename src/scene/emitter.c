@@ -1,0 +1,47 @@
+/* The arguments of light, glow and spotlight. */
+#include "scene/emitter.h"
+
+#include "base/angle.h"
+
+bool emitter_is(rad_type type) {
+    return type == RAD_LIGHT || type == RAD_ILLUM || type == RAD_GLOW || type == RAD_SPOTLIGHT;
+}
+
+static graze_status read_spot(scene_light *light, const rad_primitive *material, const graze_report *report) {
+    const double *a = material->reals;
+    double cone = a[3];
+    vec3 aim = vec3_make(a[4], a[5], a[6]);
+    if (!(cone > 0 && cone <= 360))
+        return rad_primitive_error(report, material, "the cone's full angle must be in (0, 360] degrees, not %g", cone);
+    if (vec3_length(aim) == 0)
+        return rad_primitive_error(report, material, "the aim vector is null");
+    light->spot = true;
+    light->spot_axis = vec3_normalize(aim);
+    light->spot_cosine = cos(angle_radians(cone / 2));
+    return GRAZE_OK;
+}
+
+graze_status emitter_to_light(scene_light *light, const rad_primitive *material, const graze_report *report) {
+    static const struct {
+        rad_type type;
+        uint32_t reals;
+    } shapes[] = {{RAD_LIGHT, 3}, {RAD_GLOW, 4}, {RAD_SPOTLIGHT, 7}};
+    uint32_t expected = 0;
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        if (shapes[i].type == material->type)
+            expected = shapes[i].reals;
+    if (expected == 0)
+        return rad_primitive_error(report, material, "this type is not supported yet");
+    if (material->real_count != expected || material->string_count != 0)
+        return rad_primitive_error(report, material, "expected 0 strings and %u reals, found %u and %u", expected,
+                                   material->string_count, material->real_count);
+    const double *a = material->reals;
+    if (!(a[0] >= 0 && a[1] >= 0 && a[2] >= 0))
+        return rad_primitive_error(report, material, "radiance must not be negative");
+    light->radiance = (rgb){a[0], a[1], a[2]};
+    if (material->type == RAD_GLOW) {
+        light->glow = true;
+        light->glow_radius = a[3];
+    }
+    return material->type == RAD_SPOTLIGHT ? read_spot(light, material, report) : GRAZE_OK;
+}

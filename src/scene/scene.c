@@ -1,0 +1,234 @@
+/* Loading a scene: from a flat list of primitives to surfaces, materials and lights ready to trace. */
+#include "scene/scene.h"
+
+#include <stdlib.h>
+
+#include "base/angle.h"
+#include "material/from_primitive.h"
+#include "scene/emitter.h"
+
+/* Materials that the description's primitives have become, and errors met on the way: one pass reports all. */
+typedef struct builder {
+    graze_scene *scene;
+    const graze_report *report;
+    int *material_of; /* by primitive: index into scene->materials, or -1 */
+    graze_status status;
+} builder;
+
+const char *scene_name(const graze_scene *scene, int primitive) {
+    return scene->primitives[primitive].id;
+}
+
+const char *scene_modifier_name(const graze_scene *scene, int primitive) {
+    int modifier = scene->primitives[primitive].modifier;
+    return modifier == RAD_VOID ? "void" : scene->primitives[modifier].id;
+}
+
+static void fail(builder *b, graze_status status) {
+    if (status > b->status)
+        b->status = status;
+}
+
+/* A failure that is told once, where the material is first used. */
+#define MATERIAL_REFUSED (-2)
+
+static int add_material(builder *b, int primitive) {
+    graze_scene *scene = b->scene;
+    const rad_primitive *p = &scene->primitives[primitive];
+    scene_material *material = &scene->materials[scene->material_count];
+    *material = (scene_material){.primitive = primitive, .emits = emitter_is(p->type)};
+    graze_status status = GRAZE_OK;
+    if (material->emits)
+        status = emitter_to_light(&(scene_light){0}, p, b->report);
+    else
+        status = material_from_primitive(&material->reflector, p, b->report);
+    if (status == GRAZE_OK && p->modifier != RAD_VOID) {
+        const rad_primitive *pattern = &scene->primitives[p->modifier];
+        status = rad_primitive_error(b->report, pattern, "modifies %s %s, but this type is not supported yet",
+                                     rad_type_name(p->type), p->id);
+    }
+    if (status != GRAZE_OK) {
+        fail(b, status);
+        return MATERIAL_REFUSED;
+    }
+    return (int)scene->material_count++;
+}
+
+/* The material of a surface, or a negative number where it has none that can be used (reported). */
+static int material_of_surface(builder *b, const rad_primitive *surface) {
+    if (surface->modifier == RAD_VOID) {
+        fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
+        return MATERIAL_REFUSED;
+    }
+    int *material = &b->material_of[surface->modifier];
+    if (*material == -1)
+        *material = add_material(b, surface->modifier);
+    return *material;
+}
+
+static void add_light(builder *b, scene_light light) {
+    if (!rgb_is_black(light.radiance))
+        b->scene->lights[b->scene->light_count++] = light;
+}
+
+static void bound_shape_light(scene_light *light) {
+    const shape *s = light->shape;
+    if (s->kind == SHAPE_SPHERE) {
+        light->center = s->sphere.center;
+        light->radius = s->sphere.radius;
+    } else {
+        vec3 lower, upper;
+        shape_bounds(s, &lower, &upper);
+        light->center = vec3_scale(0.5, vec3_add(lower, upper));
+        light->radius = vec3_length(vec3_subtract(upper, lower)) / 2;
+    }
+    light->power = rgb_brightness(light->radiance) * shape_area(s);
+}
+
+/* A flat surface across its own orientation vector: told here, once, for no ray could tell it. */
+static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
+                              const scene_material *material) {
+    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
+    if (!flat || material->emits || !material->reflector.has_orientation)
+        return;
+    vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
+    graze_surface probe;
+    int illegal = 0;
+    graze_surface_prepare(&probe, &material->reflector, normal, normal, &illegal);
+    if (illegal)
+        rad_primitive_warning(b->report, surface,
+                              "lies across the orientation vector of its material, which is then isotropic");
+}
+
+static void add_shape(builder *b, int primitive) {
+    graze_scene *scene = b->scene;
+    const rad_primitive *p = &scene->primitives[primitive];
+    int material = material_of_surface(b, p);
+    size_t index = scene->surface_count;
+    bool degenerate = false;
+    graze_status status = shape_from_primitive(&scene->shapes[index], &degenerate, p, scene->memory, b->report);
+    if (status != GRAZE_OK)
+        fail(b, status);
+    if (status != GRAZE_OK || degenerate || material < 0)
+        return;
+    scene->surfaces[index] = (scene_surface){.primitive = primitive, .material = material, .light = -1};
+    scene->surface_count++;
+    check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
+    if (!scene->materials[material].emits)
+        return;
+    scene_light light = {.shape = &scene->shapes[index], .surface = (int)index, .primitive = primitive};
+    /* add_material has checked the same arguments. */
+    (void)emitter_to_light(&light, &scene->primitives[p->modifier], NULL);
+    bound_shape_light(&light);
+    if (!rgb_is_black(light.radiance))
+        scene->surfaces[index].light = (int)scene->light_count;
+    add_light(b, light);
+}
+
+static void add_source(builder *b, int primitive) {
+    const rad_primitive *p = &b->scene->primitives[primitive];
+    int material = material_of_surface(b, p);
+    if (material < 0)
+        return;
+    if (!b->scene->materials[material].emits) {
+        rad_primitive_warning(b->report, p, "a source whose material does not shine does nothing");
+        return;
+    }
+    const double *a = p->reals;
+    if (p->real_count != 4 || !(a[3] > 0 && a[3] <= 360) || !(vec3_length(vec3_make(a[0], a[1], a[2])) > 0)) {
+        fail(b, rad_primitive_error(b->report, p,
+                                    "needs 4 reals: a direction that is not null, and an angle in (0, 360]"));
+        return;
+    }
+    scene_light light = {.surface = -1, .primitive = primitive};
+    (void)emitter_to_light(&light, &b->scene->primitives[p->modifier], NULL);
+    light.center = vec3_normalize(vec3_make(a[0], a[1], a[2]));
+    light.half_angle = angle_radians(a[3] / 2);
+    if (light.spot) {
+        rad_primitive_warning(b->report, p, "a source is infinitely far away: the spotlight's cone is ignored");
+        light.spot = false;
+    }
+    double half_sine = sin(light.half_angle / 2);
+    light.power = rgb_brightness(light.radiance) * 4 * PI * half_sine * half_sine;
+    add_light(b, light);
+}
+
+static bool is_glow_source(const graze_scene *scene, const rad_primitive *p) {
+    return p->modifier != RAD_VOID && scene->primitives[p->modifier].type == RAD_GLOW;
+}
+
+/* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
+static void add_surfaces(builder *b, size_t count) {
+    graze_scene *scene = b->scene;
+    for (size_t i = 0; i < count; i++) {
+        const rad_primitive *p = &scene->primitives[i];
+        if (p->type == RAD_MESH || p->type == RAD_INSTANCE)
+            fail(b, rad_primitive_error(b->report, p, "this type is not supported yet"));
+        else if (rad_type_is_surface(p->type) && p->type != RAD_SOURCE)
+            add_shape(b, (int)i);
+    }
+    scene->first_source = scene->light_count;
+    for (int glow = 0; glow <= 1; glow++)
+        for (size_t i = 0; i < count; i++)
+            if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, &scene->primitives[i]) == glow)
+                add_source(b, (int)i);
+}
+
+/* Arrays as large as they can become: surfaces and materials are primitives, lights are surfaces. */
+static graze_status allocate(builder *b, size_t count) {
+    graze_scene *scene = b->scene;
+    size_t surfaces = 0;
+    for (size_t i = 0; i < count; i++)
+        surfaces += rad_type_is_surface(scene->primitives[i].type) != 0;
+    size_t modifiers = count - surfaces;
+    scene->memory = arena_create();
+    scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
+    scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
+    scene->materials = calloc(modifiers + 1, sizeof *scene->materials);
+    scene->lights = calloc(surfaces + 1, sizeof *scene->lights);
+    b->material_of = malloc((count + 1) * sizeof *b->material_of);
+    if (!scene->memory || !scene->shapes || !scene->surfaces || !scene->materials || !scene->lights || !b->material_of)
+        return report_out_of_memory(b->report);
+    for (size_t i = 0; i < count; i++)
+        b->material_of[i] = -1;
+    return GRAZE_OK;
+}
+
+graze_status graze_scene_load(graze_scene **out, const char *const *descriptions, size_t count, int threads,
+                              const graze_report *report) {
+    *out = NULL;
+    graze_scene *scene = calloc(1, sizeof *scene);
+    if (!scene)
+        return report_out_of_memory(report);
+    builder b = {.scene = scene, .report = report, .status = GRAZE_OK};
+    b.status = rad_scene_read(&scene->description, descriptions, count, report);
+    if (b.status == GRAZE_OK) {
+        size_t primitive_count;
+        scene->primitives = rad_scene_primitives(scene->description, &primitive_count);
+        b.status = allocate(&b, primitive_count);
+        if (b.status == GRAZE_OK)
+            add_surfaces(&b, primitive_count);
+    }
+    if (b.status == GRAZE_OK)
+        b.status = geometry_build(&scene->geometry, scene->shapes, scene->surface_count, threads, report);
+    free(b.material_of);
+    if (b.status != GRAZE_OK) {
+        graze_scene_destroy(scene);
+        return b.status;
+    }
+    *out = scene;
+    return GRAZE_OK;
+}
+
+void graze_scene_destroy(graze_scene *scene) {
+    if (!scene)
+        return;
+    geometry_destroy(scene->geometry);
+    free(scene->lights);
+    free(scene->materials);
+    free(scene->surfaces);
+    free(scene->shapes);
+    arena_destroy(scene->memory);
+    rad_scene_destroy(scene->description);
+    free(scene);
+}

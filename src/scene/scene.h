@@ -1,0 +1,72 @@
+/* The inside of graze_scene: surfaces, what they are made of, and the lights among them. */
+#ifndef SCENE_SCENE_H
+#define SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/vector.h"
+#include "geometry/geometry.h"
+#include "graze/material.h"
+#include "graze/scene.h"
+#include "rad/scene_file.h"
+
+/* What a material does: it reflects, or it shines. */
+typedef struct scene_material {
+    bool emits;
+    graze_material reflector; /* unless `emits` */
+    int primitive;            /* of the material, in the description */
+} scene_material;
+
+/* How a light takes part in the lighting of a point. */
+typedef enum light_role {
+    LIGHT_NONE,    /* only seen: glow with a negative radius */
+    LIGHT_AMBIENT, /* lights like any bright surface: through glossy reflection, and the diffuse one while bounces are
+                      left */
+    LIGHT_DIRECT,  /* lights everything that sees it */
+} light_role;
+
+/* A light: a shape of the scene that shines from its front, or a `source` infinitely far away. */
+typedef struct scene_light {
+    rgb radiance;
+    const shape *shape; /* null for a source */
+    int surface;        /* index of the shape; -1 for a source */
+    int primitive;      /* of the surface, in the description */
+    bool glow;
+    double glow_radius; /* of a glow: where it is LIGHT_DIRECT; 0: nowhere; negative: LIGHT_NONE everywhere */
+    bool spot;
+    vec3 spot_axis;     /* unit, the way the light goes */
+    double spot_cosine; /* of the half angle of the cone */
+    vec3 center;        /* of a sphere around the shape; for a source the unit direction towards it */
+    double radius;      /* of that sphere */
+    double half_angle;  /* of a source, radians */
+    double power;       /* brightness x area, or x solid angle for a source: for choosing among lights */
+} scene_light;
+
+typedef struct scene_surface {
+    int primitive; /* in the description */
+    int material;  /* index into materials */
+    int light;     /* index into lights, or -1 */
+} scene_surface;
+
+struct graze_scene {
+    rad_scene *description;
+    const rad_primitive *primitives;
+    arena *memory;
+    shape *shapes; /* surface_count of them, the same index as `surfaces` */
+    scene_surface *surfaces;
+    size_t surface_count;
+    scene_material *materials;
+    size_t material_count;
+    scene_light *lights; /* the shapes first, then the sources */
+    size_t light_count;
+    size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
+    geometry *geometry;
+};
+
+/* The name of the primitive with this index, or of its modifier ("void"). */
+const char *scene_name(const graze_scene *, int primitive);
+const char *scene_modifier_name(const graze_scene *, int primitive);
+
+#endif

@@ -1,0 +1,119 @@
+/* The table of the shared options, and what their values mean. */
+#include "tools/common/render_options.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/parallel.h"
+
+render_options render_options_default(double error) {
+    graze_trace_settings defaults = graze_trace_defaults();
+    render_options o = {
+        .back_faces = true,
+        .lights_visible = true,
+        .warnings = true,
+        .ambient_divisions = 1024,
+        .reflection_limit = defaults.reflection_limit,
+        .threads = parallel_processor_count(),
+        .minimum_weight = defaults.minimum_weight,
+        .error = error,
+        .sample_limit = (int)defaults.sample_limit,
+        .strategy = "mis",
+    };
+    o.ignored.ambient_accuracy = 0.1;
+    o.ignored.ambient_resolution = 256;
+    o.ignored.ambient_supersamples = 512;
+    o.ignored.direct_threshold = 0.03;
+    o.ignored.direct_certainty = 0.75;
+    o.ignored.direct_sampling = 0.2;
+    o.ignored.direct_relays = 2;
+    o.ignored.direct_pretest = 512;
+    o.ignored.specular_sampling = 1;
+    o.ignored.ambient_file = "";
+    o.ignored.uncorrelated = true;
+    return o;
+}
+
+void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) {
+    const option options[RENDER_OPTION_COUNT] = {
+        {"", OPTION_HEADING, NULL, NULL, "Accuracy", 0, 0, NULL, NULL},
+        {"--error", OPTION_REAL, &o->error, "E", "standard error to reach, as a part of the value", 1e-6, 1e6, NULL,
+         NULL},
+        {"--floor", OPTION_REAL, &o->floor, "F", "smaller values need only E x F", 0, INFINITY, NULL, NULL},
+        {"--samples", OPTION_INTEGER, &o->samples, "N", "take exactly N paths instead; 0: by --error", 0, 1 << 30, NULL,
+         NULL},
+        {"--max-samples", OPTION_INTEGER, &o->sample_limit, "N", "never more paths than this", 2, 1 << 30, NULL, NULL},
+        {"--seed", OPTION_INTEGER, &o->seed, "S", "other seeds give other, equally good answers", 0, 2147483647, NULL,
+         NULL},
+        {"--strategy", OPTION_TEXT, &o->strategy, "S", "light (Eq. 18), brdf (Eq. 16), or mis (both)", 0, 0, NULL,
+         NULL},
+        {"-n", OPTION_INTEGER, &o->threads, "N", "number of threads", 1, 1024, NULL, NULL},
+        {"", OPTION_HEADING, NULL, NULL, "Light", 0, 0, NULL, NULL},
+        {"-ab", OPTION_INTEGER, &o->ambient_bounces, "N", "diffuse interreflections", 0, 1000000, NULL, NULL},
+        {"-av", OPTION_REAL3, o->ambient_value, "R G B", "ambient radiance beyond those", 0, INFINITY, NULL, NULL},
+        {"-ad", OPTION_INTEGER, &o->ambient_divisions, "N", "0: no diffuse interreflection; else ignored", 0,
+         2147483647, NULL, NULL},
+        {"-i", OPTION_FLAG, &o->irradiance, NULL, "irradiance where the ray first hits, instead of radiance", 0, 0,
+         NULL, NULL},
+        {"-bv", OPTION_FLAG, &o->back_faces, NULL, "surfaces are seen from behind", 0, 0, NULL, NULL},
+        {"-dv", OPTION_FLAG, &o->lights_visible, NULL, "lights are seen", 0, 0, NULL, NULL},
+        {"-st", OPTION_REAL, &o->specular_threshold, "R", "rough lobes up to this reflectance count as diffuse", 0, 1,
+         NULL, NULL},
+        {"-lr", OPTION_INTEGER, &o->reflection_limit, "N", "limit of reflections; <= 0: roulette; 0: none", -1000000,
+         1000000, NULL, NULL},
+        {"-lw", OPTION_REAL, &o->minimum_weight, "W", "weight below which paths play roulette or end", 0, 1, NULL,
+         NULL},
+        {"-w", OPTION_FLAG, &o->warnings, NULL, "warnings", 0, 0, NULL, NULL},
+        {"", OPTION_HEADING, NULL, NULL, "Accepted for Radiance's sake, without effect", 0, 0, NULL, NULL},
+        {"-aa", OPTION_REAL, &o->ignored.ambient_accuracy, "A", "ambient accuracy", 0, INFINITY, NULL, NULL},
+        {"-ar", OPTION_INTEGER, &o->ignored.ambient_resolution, "N", "ambient resolution", 0, 2147483647, NULL, NULL},
+        {"-as", OPTION_INTEGER, &o->ignored.ambient_supersamples, "N", "ambient super-samples", 0, 2147483647, NULL,
+         NULL},
+        {"-aw", OPTION_INTEGER, &o->ignored.ambient_weight, "N", "weight of the ambient value", 0, 2147483647, NULL,
+         NULL},
+        {"-af", OPTION_TEXT, &o->ignored.ambient_file, "FILE", "ambient file: neither read nor written", 0, 0, NULL,
+         NULL},
+        {"-dt", OPTION_REAL, &o->ignored.direct_threshold, "R", "direct threshold", 0, 1, NULL, NULL},
+        {"-dc", OPTION_REAL, &o->ignored.direct_certainty, "R", "direct certainty", 0, 1, NULL, NULL},
+        {"-dj", OPTION_REAL, &o->ignored.direct_jitter, "R", "direct jitter", 0, 1, NULL, NULL},
+        {"-ds", OPTION_REAL, &o->ignored.direct_sampling, "R", "source subdivision", 0, INFINITY, NULL, NULL},
+        {"-dr", OPTION_INTEGER, &o->ignored.direct_relays, "N", "virtual source relays", 0, 2147483647, NULL, NULL},
+        {"-dp", OPTION_INTEGER, &o->ignored.direct_pretest, "N", "virtual source pretest density", 0, 2147483647, NULL,
+         NULL},
+        {"-ss", OPTION_REAL, &o->ignored.specular_sampling, "N", "specular sampling: the whole lobe always is", 0,
+         INFINITY, NULL, NULL},
+        {"-u", OPTION_FLAG, &o->ignored.uncorrelated, NULL, "uncorrelated sampling", 0, 0, NULL, NULL},
+    };
+    memcpy(table, options, sizeof options);
+}
+
+static graze_status read_strategy(const char *name, graze_strategy *strategy, const graze_report *report) {
+    static const char *const names[] = {
+        [GRAZE_STRATEGY_MIS] = "mis", [GRAZE_STRATEGY_LIGHT] = "light", [GRAZE_STRATEGY_BRDF] = "brdf"};
+    for (int i = 0; i < (int)(sizeof names / sizeof *names); i++)
+        if (strcmp(name, names[i]) == 0) {
+            *strategy = (graze_strategy)i;
+            return GRAZE_OK;
+        }
+    return report_error(report, NULL, "--strategy must be light, brdf or mis, not '%s'", name);
+}
+
+graze_status render_options_settings(const render_options *o, bool sensor, graze_trace_settings *s,
+                                     const graze_report *report) {
+    *s = graze_trace_defaults();
+    s->quantity = sensor ? GRAZE_IRRADIANCE : o->irradiance ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
+    s->ambient_bounces = o->ambient_divisions > 0 ? o->ambient_bounces : 0;
+    s->ambient_value = (graze_rgb){o->ambient_value[0], o->ambient_value[1], o->ambient_value[2]};
+    s->back_faces_visible = o->back_faces;
+    s->lights_visible = o->lights_visible;
+    s->reflection_limit = o->reflection_limit;
+    s->minimum_weight = o->minimum_weight;
+    s->specular_threshold = o->specular_threshold;
+    s->error = o->error;
+    s->floor = o->floor;
+    s->samples = (uint32_t)o->samples;
+    s->sample_limit = (uint32_t)o->sample_limit;
+    s->seed = (uint64_t)o->seed;
+    graze_status status = read_strategy(o->strategy, &s->strategy, report);
+    return status != GRAZE_OK ? status : graze_trace_check(s, report);
+}

@@ -1,0 +1,38 @@
+/* The options that gtrace and gpict share: how light is traced. */
+#ifndef TOOLS_RENDER_OPTIONS_H
+#define TOOLS_RENDER_OPTIONS_H
+
+#include <stdbool.h>
+
+#include "base/options.h"
+#include "graze/trace.h"
+
+/* Where the options' values go, in the types that base/options.h wants. */
+typedef struct render_options {
+    bool irradiance, back_faces, lights_visible, warnings;
+    int ambient_bounces, ambient_divisions, reflection_limit, threads;
+    double ambient_value[3];
+    double minimum_weight, specular_threshold, error, floor;
+    int samples, sample_limit, seed;
+    const char *strategy;
+    /* Accepted so that Radiance's command lines work; Graze has nothing that they could steer. */
+    struct {
+        double ambient_accuracy, direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
+        int ambient_weight, ambient_resolution, ambient_supersamples, direct_relays, direct_pretest;
+        const char *ambient_file;
+        bool uncorrelated;
+    } ignored;
+} render_options;
+
+render_options render_options_default(double error);
+
+/* How many entries render_options_table fills. */
+#define RENDER_OPTION_COUNT 33
+
+/* Fills in table entries that store into *values. */
+void render_options_table(render_options *values, option table[RENDER_OPTION_COUNT]);
+
+/* Turns the values into settings, checked. `sensor` is rtrace's -I. */
+graze_status render_options_settings(const render_options *, bool sensor, graze_trace_settings *, const graze_report *);
+
+#endif

@@ -1,0 +1,19 @@
+/* What every tool's main does. */
+#ifndef TOOLS_TOOL_H
+#define TOOLS_TOOL_H
+
+#include "base/options.h"
+
+/* The command line of a run: the words as given, for headers, and what is left of them behind the options. */
+typedef struct tool_arguments {
+    int argc;
+    char **argv;
+    int operand_count;
+    const char *const *operands;
+} tool_arguments;
+
+/* Reads the options and, unless they only asked for information, calls run(user, ...). Returns the exit status. */
+int tool_main(const option_table *, int argc, char **argv, const graze_report *,
+              graze_status (*run)(void *user, const tool_arguments *, const graze_report *), void *user);
+
+#endif

@@ -1,0 +1,168 @@
+/* gtrace: rays in, radiance with its standard error out, in rtrace's manners. */
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/vector.h"
+#include "tools/common/ray_output.h"
+#include "tools/common/record_filter.h"
+#include "tools/common/record_header.h"
+#include "tools/common/render_options.h"
+#include "tools/common/tool.h"
+
+#define RAY_FIELDS 6
+#define CHUNK_RAYS 64
+/* Entries of the option table that are gtrace's own. */
+#define GTRACE_OPTION_COUNT 8
+
+typedef struct gtrace_options {
+    render_options render;
+    bool sensor, header, limit_distance;
+    int columns, rows; /* -x, -y */
+    const char *formats, *letters;
+} gtrace_options;
+
+typedef struct job {
+    const gtrace_options *options;
+    graze_scene *scene;
+    graze_trace_settings settings;
+    record_format input;
+    ray_output output;
+    atomic_ullong unconverged;
+} job;
+
+static void answer_ray(void *user, const double *record, uint64_t number, record_buffer *out) {
+    job *j = user;
+    graze_ray ray = {.origin = {record[0], record[1], record[2]}, .direction = {record[3], record[4], record[5]}};
+    graze_hit hit = {.distance = GRAZE_FAR, .point = ray.origin};
+    graze_answer answer = {.converged = 1};
+    /* A null direction asks for an empty record. */
+    double scale = vec3_max_abs(ray.direction);
+    if (scale > 0) {
+        vec3 scaled = {ray.direction.x / scale, ray.direction.y / scale, ray.direction.z / scale};
+        if (j->options->limit_distance)
+            ray.limit = scale * vec3_length(scaled);
+        ray.direction = vec3_normalize(scaled);
+        if (j->output.needs_value)
+            graze_trace(j->scene, &j->settings, &ray, number, &answer, &hit);
+        else
+            graze_cast(j->scene, &j->settings, &ray, &hit);
+    }
+    if (!answer.converged)
+        atomic_fetch_add(&j->unconverged, 1);
+    ray_output_append(&j->output, out, &ray, &hit, &answer);
+}
+
+static graze_status write_header(const job *j, const tool_arguments *arguments, const graze_report *report) {
+    const gtrace_options *o = j->options;
+    record_buffer out = {0};
+    if (o->header)
+        record_header_append(&out, arguments, j->output.numbers, (char)j->output.format);
+    if (o->columns > 0 && o->rows > 0) {
+        char line[64];
+        snprintf(line, sizeof line, "-Y %d +X %d\n", o->rows, o->columns);
+        record_append_text(&out, line);
+    }
+    graze_status status = record_buffer_write(&out, STDOUT_FILENO, "standard output", report);
+    record_buffer_free(&out);
+    return status;
+}
+
+/* -f takes the format of rays and that of answers, or one letter for both. */
+static graze_status read_formats(const char *formats, record_format *in, char *out, const graze_report *report) {
+    size_t length = strlen(formats);
+    if (length < 1 || length > 2 || !strchr("afd", formats[0]) || !strchr("afdc", formats[length - 1]))
+        return report_error(report, NULL, "-f%s: expected one of a f d for rays, then one of a f d c for answers",
+                            formats);
+    *in = (record_format)formats[0];
+    *out = formats[length - 1];
+    return GRAZE_OK;
+}
+
+static graze_status check_operands(const tool_arguments *arguments, const graze_report *report) {
+    if (arguments->operand_count == 0)
+        return report_error(report, NULL, "no scene given; try --help");
+    for (int i = 0; i < arguments->operand_count; i++)
+        if (strcmp(arguments->operands[i], "-") == 0)
+            return report_error(report, NULL, "the scene cannot be '-': rays come from standard input");
+    return GRAZE_OK;
+}
+
+/* All that can be wrong before the scene is read. */
+static graze_status prepare(job *j, const tool_arguments *arguments, const graze_report *report) {
+    const gtrace_options *o = j->options;
+    char format = 0;
+    graze_status status = read_formats(o->formats, &j->input, &format, report);
+    if (status == GRAZE_OK)
+        status = ray_output_parse(&j->output, o->letters, format, report);
+    if (status == GRAZE_OK)
+        status = render_options_settings(&o->render, o->sensor, &j->settings, report);
+    if (status == GRAZE_OK)
+        status = check_operands(arguments, report);
+    if (status == GRAZE_OK && !j->output.needs_value && j->settings.quantity != GRAZE_RADIANCE)
+        status = report_error(report, NULL, "-i and -I need an output that depends on light, such as -ov, not -o%s",
+                              o->letters);
+    return status;
+}
+
+static graze_status answer_rays(job *j, const tool_arguments *arguments, const graze_report *report) {
+    const gtrace_options *o = j->options;
+    record_filter filter = {.fields = RAY_FIELDS,
+                            .chunk_records = CHUNK_RAYS,
+                            .threads = o->render.threads,
+                            .user = j,
+                            .answer = answer_ray};
+    uint64_t count = 0;
+    if (o->rows > 0)
+        filter.wanted = (uint64_t)o->rows * (uint64_t)(o->columns > 1 ? o->columns : 1);
+    graze_status status =
+        record_reader_open(&filter.reader, STDIN_FILENO, "standard input", j->input, RAY_FIELDS, report);
+    if (status == GRAZE_OK)
+        status = write_header(j, arguments, report);
+    if (status == GRAZE_OK)
+        status = record_filter_run(&filter, &count, report);
+    unsigned long long unconverged = atomic_load(&j->unconverged);
+    if (unconverged && o->render.warnings)
+        report_warning(report, NULL, "%llu of %llu answers reached --max-samples before --error", unconverged,
+                       (unsigned long long)count);
+    record_reader_close(filter.reader);
+    return status;
+}
+
+static graze_status run(void *user, const tool_arguments *arguments, const graze_report *report) {
+    job j = {.options = user};
+    graze_status status = prepare(&j, arguments, report);
+    if (status == GRAZE_OK)
+        status = graze_scene_load(&j.scene, arguments->operands, (size_t)arguments->operand_count,
+                                  j.options->render.threads, report);
+    if (status == GRAZE_OK)
+        status = answer_rays(&j, arguments, report);
+    graze_scene_destroy(j.scene);
+    return status;
+}
+
+int main(int argc, char **argv) {
+    graze_report report = options_standard_error_report("gtrace");
+    gtrace_options o = {.render = render_options_default(0.02), .header = true, .formats = "a", .letters = "v"};
+    option table[GTRACE_OPTION_COUNT + RENDER_OPTION_COUNT] = {
+        {"", OPTION_HEADING, NULL, NULL, "Rays and answers", 0, 0, NULL, NULL},
+        {"-f", OPTION_SUFFIX, &o.formats, "IO", "formats in and out: a f d, and c out (4-byte colors)", 0, 0, NULL,
+         NULL},
+        {"-o", OPTION_SUFFIX, &o.letters, "SPEC", "what to print: letters of v e o d l L p n N s m M w c ~", 0, 0, NULL,
+         NULL},
+        {"-h", OPTION_FLAG, &o.header, NULL, "header before the answers", 0, 0, NULL, NULL},
+        {"-x", OPTION_INTEGER, &o.columns, "N", "answers in a row of the picture", 0, 2147483647, NULL, NULL},
+        {"-y", OPTION_INTEGER, &o.rows, "N", "rows: stop after x times y rays", 0, 2147483647, NULL, NULL},
+        {"-I", OPTION_FLAG, &o.sensor, NULL, "irradiance on sensors at the rays' origins, the directions their normals",
+         0, 0, NULL, NULL},
+        {"-ld", OPTION_FLAG, &o.limit_distance, NULL, "look no farther than the direction's length", 0, 0, NULL, NULL},
+    };
+    render_options_table(&o.render, table + GTRACE_OPTION_COUNT);
+    option_table options = {.program = "gtrace",
+                            .synopsis = "[options] scene... < rays",
+                            .summary = "Traces rays through Radiance scenes: radiance with its standard error.",
+                            .options = table,
+                            .count = GTRACE_OPTION_COUNT + RENDER_OPTION_COUNT};
+    return tool_main(&options, argc, argv, &report, run, &o);
+}

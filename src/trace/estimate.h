@@ -1,0 +1,31 @@
+/* Means with a standard error that low-discrepancy points do not fool.
+ *
+ * The points of one scrambled sequence are not independent, so the scatter of their values says little of their mean's
+ * error. Samples therefore come from several sequences scrambled independently, the replicates, taken in turn; the
+ * scatter of the replicates' means is that of independent, equally distributed numbers. */
+#ifndef TRACE_ESTIMATE_H
+#define TRACE_ESTIMATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/vector.h"
+#include "graze/trace.h"
+#include "trace/sampler.h"
+
+#define ESTIMATE_REPLICATES 16
+
+/* What a sample's value depends on besides its question. */
+typedef enum estimate_luck {
+    ESTIMATE_EXACT, /* nothing: all samples are equal */
+    ESTIMATE_PLACE, /* on random numbers that chose where to look, as in a pixel, but not on what is seen there */
+    ESTIMATE_NOISY, /* on random numbers */
+} estimate_luck;
+
+/* Draws one sample. */
+typedef rgb estimate_sample(void *user, sampler *, estimate_luck *luck);
+
+/* Takes samples until the settings' error or number of samples is reached. `stream` tells estimates apart. */
+void estimate(const graze_trace_settings *, uint64_t stream, estimate_sample *, void *user, graze_answer *);
+
+#endif

@@ -1,0 +1,372 @@
+/* Path tracing with next-event estimation.
+ *
+ * At each surface point, light arrives in two ways: from lights that are sampled (Eq. 18), and from wherever a sampled
+ * reflection leads (Eq. 16). What both can find is weighted by the power heuristic. Radiance's rules of what counts are
+ * kept: `light`s light everything; `glow`s light diffusely only where an ambient bounce is left; a diffuse reflection
+ * costs an ambient bounce. */
+#include "trace/path.h"
+
+#include <float.h>
+
+#include "base/angle.h"
+#include "graze/material.h"
+#include "scene/light.h"
+
+/* Beyond this many reflections every path plays roulette, so that a room of perfect mirrors ends. */
+#define ENDLESS_DEPTH    64
+#define ENDLESS_SURVIVAL 0.9
+/* From this many reflections on, paths survive in proportion to what they carry. */
+#define ROULETTE_DEPTH 4
+
+/* Up to so many lights are all sampled, at the first point and at later ones; of more, one is chosen. */
+#define EVERY_LIGHT_FIRST 8
+#define EVERY_LIGHT_LATER 2
+
+/* A point that light is gathered at, and how the path got there. */
+typedef struct vertex {
+    vec3 point;
+    int surface; /* -1: a sensor */
+    graze_surface shading;
+    rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
+    bool gloss_is_ambient;
+} vertex;
+
+/* The last reflection, as an emitter found next needs it. */
+typedef struct scattering {
+    graze_lobe lobe; /* NONE: the ray comes from the eye */
+    double density;  /* of the direction, per unit solid angle, the choice of the lobe included */
+    rgb direct;      /* throughput for LIGHT_DIRECT, which differs where a gloss was made ambient */
+    bool ambient;    /* LIGHT_AMBIENT counts */
+    light_receiver receiver;
+} scattering;
+
+typedef struct path {
+    const path_context *context;
+    sampler *sampler;
+    rgb throughput, radiance;
+    int ambient_depth; /* diffuse reflections so far */
+    int depth;         /* all reflections so far */
+    bool scattered;    /* whether any of them was not a mirror's */
+    scattering last;
+} path;
+
+path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int from) {
+    const graze_scene *scene = context->scene;
+    path_hit hit = {.surface = -1, .light = -1, .distance = GEOMETRY_FAR, .point = origin, .direction = direction};
+    geometry_ray ray = {.origin = origin, .direction = direction, .far = limit, .from = from};
+    geometry_hit found;
+    double travelled = 0;
+    while (geometry_intersect(scene->geometry, &ray, &found)) {
+        bool behind = vec3_dot(found.normal, direction) > 0;
+        if (!behind || context->settings->back_faces_visible) {
+            hit.surface = found.surface;
+            hit.light = scene->surfaces[found.surface].light;
+            hit.distance = travelled + found.distance;
+            hit.point = found.point;
+            hit.normal = found.normal;
+            hit.behind = behind;
+            return hit;
+        }
+        hit.passed = true;
+        travelled += found.distance;
+        ray.origin = found.point;
+        ray.far -= found.distance;
+        ray.from = found.surface;
+    }
+    if (limit >= GEOMETRY_FAR)
+        hit.light = light_source_towards(scene, direction);
+    return hit;
+}
+
+/* A Lambertian surface that turns irradiance into radiance of the same number. */
+static graze_surface probe(vec3 normal, vec3 view) {
+    static const graze_material white = {.kind = GRAZE_PLASTIC, .color = {1, 1, 1}};
+    graze_surface surface;
+    graze_surface_prepare(&surface, &white, normal, view, NULL);
+    surface.diffuse = rgb_gray(PI);
+    return surface;
+}
+
+/* Makes the vertex where the path has hit a reflecting surface. False: it has not, or carries nothing. */
+static bool path_vertex(const path *p, const path_hit *hit, vertex *v) {
+    if (hit->surface < 0 || rgb_is_black(p->throughput))
+        return false;
+    const graze_scene *scene = p->context->scene;
+    const scene_material *material = &scene->materials[scene->surfaces[hit->surface].material];
+    if (material->emits)
+        return false;
+    vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
+    v->point = hit->point;
+    v->surface = hit->surface;
+    if (p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT)
+        v->shading = probe(normal, view);
+    else
+        graze_surface_prepare(&v->shading, &material->reflector, normal, view, NULL);
+    v->ambient = v->shading.diffuse;
+    v->gloss_is_ambient = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY &&
+                          rgb_max(v->shading.specular) <= p->context->settings->specular_threshold;
+    if (v->gloss_is_ambient)
+        v->ambient = rgb_add(v->ambient, v->shading.specular);
+    return true;
+}
+
+static double power_heuristic(double density, double other) {
+    double ratio = other / density;
+    return 1 / (1 + ratio * ratio);
+}
+
+/* Whether lights are looked for by this technique, in general. */
+static bool samples_lights(const path_context *context) {
+    return context->settings->strategy != GRAZE_STRATEGY_BRDF;
+}
+
+/* Glows that shine through hidden back faces would be lost to shadow rays, which those stop as in Radiance: so without
+ * back faces, glows are found by reflection alone. */
+static bool samples_glows(const path_context *context) {
+    return samples_lights(context) && context->settings->back_faces_visible;
+}
+
+/* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
+static double found_weight(const path *p, const path_hit *hit, light_role role) {
+    const scattering *last = &p->last;
+    bool rival = role == LIGHT_DIRECT ? samples_lights(p->context) : samples_glows(p->context);
+    if (role == LIGHT_DIRECT && hit->passed)
+        return 0;
+    if (!rival)
+        return 1;
+    if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
+        return 0;
+    double other =
+        light_density(p->context->scene, &last->receiver, hit->light, hit->direction, hit->point, hit->normal);
+    return power_heuristic(last->density, other);
+}
+
+static void add_emission(path *p, const path_hit *hit) {
+    const scene_light *light = &p->context->scene->lights[hit->light];
+    rgb radiance = light_radiance(light, hit->direction, hit->normal);
+    if (rgb_is_black(radiance))
+        return;
+    rgb throughput = p->throughput;
+    light_role role = light_role_at(light, hit->distance);
+    if (role == LIGHT_NONE && p->scattered)
+        return;
+    if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
+        if (role == LIGHT_AMBIENT && !p->last.ambient)
+            return;
+        if (role == LIGHT_DIRECT)
+            throughput = p->last.direct;
+        throughput = rgb_scale(found_weight(p, hit, role), throughput);
+    } else if (role != LIGHT_AMBIENT && !p->context->settings->lights_visible) {
+        return;
+    }
+    p->radiance = rgb_add(p->radiance, rgb_multiply(throughput, radiance));
+}
+
+static bool ambient_bounces_left(const path *p) {
+    return p->ambient_depth < p->context->settings->ambient_bounces;
+}
+
+/* How likely a path goes on with a lobe of this reflectance; 0 where -lr or -lw end it. Below the minimum weight, and
+ * deep down, survival falls with what the path would carry. */
+static double survival(const path *p, rgb reflectance) {
+    const graze_trace_settings *s = p->context->settings;
+    double weight = rgb_max(rgb_multiply(p->throughput, reflectance));
+    int limit = s->reflection_limit < 0 ? -s->reflection_limit : s->reflection_limit;
+    if (weight <= 0 || (limit != 0 && p->depth >= limit))
+        return 0;
+    double chance = 1;
+    if (weight < s->minimum_weight) {
+        if (s->reflection_limit > 0)
+            return 0;
+        chance = weight / s->minimum_weight;
+    }
+    if (p->depth >= ROULETTE_DEPTH)
+        chance = fmin(chance, fmax(weight, 0.05));
+    return p->depth >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
+}
+
+/* Probabilities of going on with each lobe; they sum to at most 1. */
+typedef struct lobe_choice {
+    double diffuse, specular;
+} lobe_choice;
+
+static lobe_choice choose_lobes(const path *p, const vertex *v) {
+    lobe_choice choice = {0, 0};
+    /* Without bounces left a diffuse ray could only find lights, which are sampled directly, unless Eq. 16 stands
+     * alone. */
+    bool diffuse_needed =
+        ambient_bounces_left(p) || (!samples_lights(p->context) && p->context->scene->light_count > 0);
+    double diffuse = diffuse_needed ? survival(p, v->ambient) : 0;
+    double specular =
+        v->shading.specular_lobe == GRAZE_LOBE_NONE || v->gloss_is_ambient ? 0 : survival(p, v->shading.specular);
+    double diffuse_share = diffuse * rgb_brightness(v->ambient),
+           specular_share = specular * rgb_brightness(v->shading.specular);
+    if (diffuse == 0 || specular == 0)
+        return (lobe_choice){diffuse, specular};
+    double chance = fmax(diffuse, specular), sum = diffuse_share + specular_share;
+    /* A lobe that matters little still gets a tenth, lest its rare samples carry huge weights. */
+    double share = fmin(fmax(diffuse_share / sum, 0.1), 0.9);
+    choice.diffuse = chance * share;
+    choice.specular = chance * (1 - share);
+    return choice;
+}
+
+/* Whether nothing stands between a vertex and a light's sampled point. */
+static bool light_is_visible(const path *p, const vertex *v, const light_sample *sample) {
+    const graze_scene *scene = p->context->scene;
+    geometry_ray ray = {
+        .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
+    return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
+}
+
+/* The reflectance functions for a light sample, by the rules for its role, weighted against finding the light by
+ * reflection. */
+static rgb reflectance_for_light(const path *p, const vertex *v, const light_sample *sample, double density,
+                                 lobe_choice choice) {
+    const path_context *context = p->context;
+    light_role role = light_role_at(&context->scene->lights[sample->light], sample->distance);
+    bool ambient = role == LIGHT_AMBIENT;
+    rgb diffuse, glossy;
+    if (role == LIGHT_NONE || (ambient && !samples_glows(context)))
+        return rgb_gray(0);
+    graze_surface_value(&v->shading, sample->direction, &diffuse, &glossy);
+    if (ambient)
+        diffuse = ambient_bounces_left(p) ? rgb_scale(1 / PI, v->ambient) : rgb_gray(0);
+    if (ambient && v->gloss_is_ambient)
+        glossy = rgb_gray(0);
+    if (context->settings->strategy == GRAZE_STRATEGY_LIGHT)
+        return rgb_add(diffuse, glossy);
+    if (choice.diffuse > 0) {
+        double rival = choice.diffuse * graze_surface_density(&v->shading, GRAZE_LOBE_DIFFUSE, sample->direction);
+        diffuse = rgb_scale(power_heuristic(density, rival), diffuse);
+    }
+    if (choice.specular > 0 && v->shading.specular_lobe == GRAZE_LOBE_GLOSSY) {
+        double rival = choice.specular * graze_surface_density(&v->shading, GRAZE_LOBE_GLOSSY, sample->direction);
+        glossy = rgb_scale(power_heuristic(density, rival), glossy);
+    }
+    return rgb_add(diffuse, glossy);
+}
+
+/* Direct light, Eq. 18, from a sample of one light that was chosen with the probability. */
+static void add_sampled_light(path *p, const vertex *v, const light_receiver *receiver, int light, double probability,
+                              lobe_choice choice) {
+    double random[2];
+    sampler_2d(p->sampler, random);
+    light_sample sample = light_draw(p->context->scene, receiver, light, random);
+    if (sample.light < 0 || rgb_is_black(sample.radiance))
+        return;
+    double cosine = vec3_dot(sample.direction, v->shading.n), density = probability * sample.density;
+    if (cosine <= 0)
+        return;
+    rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice), sample.radiance);
+    if (rgb_is_black(reflected) || !light_is_visible(p, v, &sample))
+        return;
+    p->radiance = rgb_add_scaled(p->radiance, cosine / density, rgb_multiply(p->throughput, reflected));
+}
+
+/* Samples every light, or one that is chosen. */
+static void add_direct_light(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice) {
+    const graze_scene *scene = p->context->scene;
+    double probability = 0;
+    if (receiver->candidates == 0)
+        return;
+    if (!receiver->every) {
+        int light = light_choose(scene, receiver, sampler_1d(p->sampler), &probability);
+        add_sampled_light(p, v, receiver, light, probability, choice);
+        return;
+    }
+    for (int light = 0; light < (int)scene->light_count; light++)
+        if (light_probability(scene, receiver, light) > 0)
+            add_sampled_light(p, v, receiver, light, 1, choice);
+}
+
+/* Draws the lobe to go on with and turns the path into it. False: the path ends here. */
+static bool reflect(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice, vec3 *direction) {
+    if (choice.diffuse + choice.specular == 0)
+        return false;
+    double random[4];
+    sampler_4d(p->sampler, random);
+    bool diffuse = random[3] < choice.diffuse;
+    if (!diffuse && random[3] >= choice.diffuse + choice.specular)
+        return false;
+    graze_lobe lobe = diffuse ? GRAZE_LOBE_DIFFUSE : v->shading.specular_lobe;
+    double chance = diffuse ? choice.diffuse : choice.specular;
+    /* What is left of the number that chose the lobe is as random as it was. */
+    double rest = fmin((random[3] - (diffuse ? 0 : choice.diffuse)) / chance, 1 - DBL_EPSILON);
+    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, random[0], random[1], rest);
+    rgb direct = sample.weight, onward = sample.weight;
+    if (diffuse) {
+        /* The sampler's weight is the diffuse reflectance itself: cosine-weighted sampling is exact. */
+        onward = ambient_bounces_left(p) ? v->ambient : rgb_gray(0);
+        if (sample.density == 0)
+            return false;
+    }
+    if (rgb_is_black(direct) && rgb_is_black(onward))
+        return false;
+    p->last = (scattering){
+        .lobe = lobe,
+        .density = chance * sample.density,
+        .direct = rgb_scale(1 / chance, rgb_multiply(p->throughput, direct)),
+        .ambient = !diffuse || ambient_bounces_left(p),
+        .receiver = *receiver,
+    };
+    p->throughput = rgb_scale(1 / chance, rgb_multiply(p->throughput, onward));
+    p->depth++;
+    p->ambient_depth += diffuse;
+    p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;
+    *direction = sample.direction;
+    return true;
+}
+
+/* Gathers light at a vertex and goes on from there until the path ends. */
+static void follow(path *p, vertex v) {
+    const path_context *context = p->context;
+    for (;;) {
+        if (!ambient_bounces_left(p))
+            p->radiance = rgb_add(
+                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
+        lobe_choice choice = choose_lobes(p, &v);
+        bool glossy = v.shading.specular_lobe == GRAZE_LOBE_GLOSSY;
+        light_receiver receiver = {.point = v.point, .normal = v.shading.n};
+        receiver.ambient = samples_glows(context) && (ambient_bounces_left(p) || (glossy && !v.gloss_is_ambient));
+        receiver.every = context->scene->light_count <= (p->depth == 0 ? EVERY_LIGHT_FIRST : EVERY_LIGHT_LATER);
+        if (samples_lights(context) && (glossy || !rgb_is_black(v.ambient))) {
+            light_receiver_prepare(context->scene, &receiver);
+            add_direct_light(p, &v, &receiver, choice);
+        }
+        vec3 direction;
+        if (!reflect(p, &v, &receiver, choice, &direction))
+            return;
+        path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
+        if (hit.light >= 0)
+            add_emission(p, &hit);
+        if (!path_vertex(p, &hit, &v))
+            return;
+    }
+}
+
+static path path_start(const path_context *context, sampler *points) {
+    return (path){.context = context, .sampler = points, .throughput = {1, 1, 1}};
+}
+
+rgb path_radiance(const path_context *context, const path_hit *first, sampler *points) {
+    path p = path_start(context, points);
+    vertex v;
+    if (first->light >= 0)
+        add_emission(&p, first);
+    if (path_vertex(&p, first, &v))
+        follow(&p, v);
+    return p.radiance;
+}
+
+/* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
+#define SENSOR_HEIGHT 1e-4
+
+rgb path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
+    path p = path_start(context, points);
+    vertex v = {
+        .point = vec3_add_scaled(point, SENSOR_HEIGHT, normal), .surface = -1, .shading = probe(normal, normal)};
+    v.ambient = v.shading.diffuse;
+    follow(&p, v);
+    return p.radiance;
+}

@@ -1,0 +1,36 @@
+/* One light path: from a ray, or from a sensor, to one sample of radiance. */
+#ifndef TRACE_PATH_H
+#define TRACE_PATH_H
+
+#include "graze/trace.h"
+#include "scene/scene.h"
+#include "trace/sampler.h"
+
+/* What one path needs of its surroundings. */
+typedef struct path_context {
+    const graze_scene *scene;
+    const graze_trace_settings *settings;
+} path_context;
+
+/* What a ray meets: nothing, a source, or a surface. */
+typedef struct path_hit {
+    int surface;                   /* -1: none */
+    int light;                     /* of the surface or the source; -1: none */
+    double distance;               /* from the ray's origin; GEOMETRY_FAR for a source or nothing */
+    vec3 point, normal, direction; /* the surface's own normal; the ray's direction */
+    bool behind;                   /* the surface was hit from behind */
+    bool passed;                   /* faces hidden by -bv- lie before it */
+} path_hit;
+
+/* Finds what the ray meets first, passing hidden back faces. */
+path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int from);
+
+/* One sample of the radiance that arrives from `first` along the ray (or of irradiance there, by the settings'
+ * quantity). Starts at the hit, so that all samples of a ray share it. Draws from the sampler only where the answer
+ * depends on it. */
+rgb path_radiance(const path_context *, const path_hit *first, sampler *);
+
+/* One sample of the irradiance on a sensor at `point`. */
+rgb path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *);
+
+#endif

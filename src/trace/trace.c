@@ -1,0 +1,120 @@
+/* The public way in: settings, casting, and one ray's answer. */
+#include "graze/trace.h"
+
+#include "base/report.h"
+#include "trace/estimate.h"
+#include "trace/path.h"
+
+graze_trace_settings graze_trace_defaults(void) {
+    return (graze_trace_settings){
+        .back_faces_visible = 1,
+        .lights_visible = 1,
+        .reflection_limit = 0,
+        .minimum_weight = 1e-4,
+        .error = 0.02,
+        .sample_limit = 1u << 16,
+    };
+}
+
+graze_status graze_trace_check(const graze_trace_settings *s, const graze_report *report) {
+    rgb av = s->ambient_value;
+    if (s->ambient_bounces < 0)
+        return report_error(report, NULL, "ambient bounces must not be negative");
+    if (!(av.r >= 0 && av.g >= 0 && av.b >= 0 && isfinite(av.r + av.g + av.b)))
+        return report_error(report, NULL, "the ambient value must be finite and not negative");
+    if (!(s->minimum_weight >= 0 && s->minimum_weight <= 1))
+        return report_error(report, NULL, "the minimum weight must be in 0 .. 1");
+    if (!(s->specular_threshold >= 0 && s->specular_threshold <= 1))
+        return report_error(report, NULL, "the specular threshold must be in 0 .. 1");
+    if (!(s->error > 0 && isfinite(s->error)))
+        return report_error(report, NULL, "the error must be positive");
+    if (!(s->floor >= 0 && isfinite(s->floor)))
+        return report_error(report, NULL, "the floor must be finite and not negative");
+    if (s->samples == 1)
+        return report_error(report, NULL, "a standard error needs at least 2 samples");
+    if (s->sample_limit < 2)
+        return report_error(report, NULL, "the limit must leave at least 2 samples");
+    return GRAZE_OK;
+}
+
+static bool is_finite(vec3 v) {
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+/* Checks the ray and normalises its direction, safely for directions of any length. */
+static bool prepare(const graze_ray *ray, vec3 *direction, double *limit) {
+    double scale = vec3_max_abs(ray->direction);
+    if (!is_finite(ray->origin) || !is_finite(ray->direction) || scale == 0 || !isfinite(ray->limit))
+        return false;
+    vec3 scaled = {ray->direction.x / scale, ray->direction.y / scale, ray->direction.z / scale};
+    *direction = vec3_normalize(scaled);
+    *limit = ray->limit > 0 ? ray->limit : GEOMETRY_FAR;
+    return true;
+}
+
+static void describe(const graze_scene *scene, const path_hit *found, graze_hit *hit) {
+    *hit = (graze_hit){.distance = found->distance, .point = found->point};
+    int primitive = -1;
+    if (found->surface >= 0) {
+        primitive = scene->surfaces[found->surface].primitive;
+        hit->normal = found->normal;
+        hit->shading_normal = found->behind ? vec3_negate(found->normal) : found->normal;
+    } else if (found->light >= 0) {
+        primitive = scene->lights[found->light].primitive;
+        hit->normal = hit->shading_normal = vec3_negate(found->direction);
+    }
+    if (primitive < 0)
+        return;
+    hit->surface = scene_name(scene, primitive);
+    hit->modifier = hit->material = scene_modifier_name(scene, primitive);
+}
+
+static const graze_hit nothing_hit = {.distance = GRAZE_FAR};
+
+void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, graze_hit *hit) {
+    vec3 direction;
+    double limit;
+    *hit = nothing_hit;
+    hit->point = ray->origin;
+    if (!prepare(ray, &direction, &limit))
+        return;
+    path_context context = {scene, settings};
+    path_hit found = path_cast(&context, ray->origin, direction, limit, -1);
+    describe(scene, &found, hit);
+}
+
+/* A ray as estimate_sample sees it. */
+typedef struct request {
+    path_context context;
+    path_hit first;
+    vec3 origin, direction;
+} request;
+
+static rgb sample_ray(void *user, sampler *points, estimate_luck *luck) {
+    const request *r = user;
+    sampler before = *points;
+    rgb radiance = r->context.settings->quantity == GRAZE_IRRADIANCE
+                       ? path_irradiance(&r->context, r->origin, r->direction, points)
+                       : path_radiance(&r->context, &r->first, points);
+    *luck = points->group == before.group ? ESTIMATE_EXACT : ESTIMATE_NOISY;
+    return radiance;
+}
+
+void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,
+                 graze_answer *answer, graze_hit *hit) {
+    request r = {.context = {scene, settings}, .origin = ray->origin};
+    double limit;
+    *answer = (graze_answer){.converged = 1};
+    if (hit) {
+        *hit = nothing_hit;
+        hit->point = ray->origin;
+    }
+    if (!prepare(ray, &r.direction, &limit))
+        return;
+    if (settings->quantity != GRAZE_IRRADIANCE) {
+        r.first = path_cast(&r.context, ray->origin, r.direction, limit, -1);
+        if (hit)
+            describe(scene, &r.first, hit);
+    }
+    estimate(settings, stream, sample_ray, &r, answer);
+}

@@ -1,0 +1,236 @@
+/* Directional albedo: the paper's and exact values, other quadrature over directions, the samplers' mean weight,
+ * bounds. */
+#include <float.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "brdf/common.h"
+
+static void assert_near(double a, double b, double relative) {
+    if (!(fabs(a - b) <= relative * fabs(b)))
+        fail_msg("%.17g is not %.17g", a, b);
+}
+
+/* Six digits each, from the specification. */
+static const double table_thetas[] = {0, 35, 60, 75, 85, 89};
+static const double table_alphas[] = {.05, .1, .2};
+static const double table[3][6] = {{0.997500, 0.996883, 0.993688, 0.979010, 0.872044, 0.824792},
+                                   {0.990000, 0.987481, 0.973957, 0.917524, 0.812771, 0.861043},
+                                   {0.960000, 0.949092, 0.897580, 0.821169, 0.805507, 0.898875}};
+
+static void table_of_albedos(void **state) {
+    (void)state;
+    for (int a = 0; a < 3; ++a)
+        for (int t = 0; t < 6; ++t) {
+            const graze_brdf brdf = {GRAZE_BRDF_GMD, table_alphas[a], table_alphas[a]};
+            double albedo = graze_brdf_albedo(&brdf, from_degrees(table_thetas[t], 77));
+            assert_true(fabs(albedo - table[a][t]) < .5000001e-6);
+        }
+}
+
+/* The samplers' mean weight is `albedo` within what chance allows. */
+static void check_mean_weight(const graze_brdf *brdf, graze_vec3 v, double albedo, uint64_t *seed) {
+    enum { COUNT = 40000 };
+    for (int pair = 0; pair < 2; ++pair) {
+        double sum = 0, squares = 0;
+        for (int i = 0; i < COUNT; ++i) {
+            double s = draw(seed), t = draw(seed), u = draw(seed);
+            graze_brdf_sample sample =
+                pair ? graze_brdf_sample_pair(brdf, v, s, t, u) : graze_brdf_sample_ward(brdf, v, s, t);
+            sum += sample.weight;
+            squares += sample.weight * sample.weight;
+        }
+        double mean = sum / COUNT, error = sqrt((squares / COUNT - mean * mean) / COUNT);
+        if (!(fabs(mean - albedo) < 4.5 * error + 1e-6))
+            fail_msg("%g instead of %g +- %g", mean, albedo, error);
+    }
+}
+
+/* The white furnace: light of radiance 1 from everywhere. */
+static void white_furnace(void **state) {
+    (void)state;
+    uint64_t seed = 1;
+    for (int a = 0; a < 3; ++a)
+        for (int t = 0; t < 6; ++t) {
+            const graze_brdf brdf = {GRAZE_BRDF_GMD, table_alphas[a], table_alphas[a]};
+            check_mean_weight(&brdf, from_degrees(table_thetas[t], 77), table[a][t], &seed);
+        }
+}
+
+static void normal_incidence(void **state) {
+    (void)state;
+    graze_vec3 n = {0, 0, 1};
+    for (double alpha = GRAZE_ROUGHNESS_MIN; alpha <= GRAZE_ROUGHNESS_MAX; alpha *= 1.7) {
+        const graze_brdf brdf = {GRAZE_BRDF_GMD, alpha, alpha};
+        assert_near(graze_brdf_albedo(&brdf, n), 1 + alpha * alpha * expm1(-1 / (alpha * alpha)), 1e-11);
+    }
+}
+
+/* f lz by the equations as they stand. */
+static double value_times_cosine(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    graze_vec3 h = {l.x + v.x, l.y + v.y, l.z + v.z};
+    double x = h.x / brdf->alpha_x, y = h.y / brdf->alpha_y;
+    double e = exp(-(x * x + y * y) / (h.z * h.z)) / (pi * brdf->alpha_x * brdf->alpha_y);
+    switch (brdf->model) {
+    case GRAZE_BRDF_GMD:
+        return e * dot(h, h) / pow(h.z, 4) * l.z;
+    case GRAZE_BRDF_WARD:
+        return e / 4 * sqrt(l.z / v.z);
+    case GRAZE_BRDF_WARD_DUER:
+        return e / 4 / v.z;
+    default:
+        return e / 4 * l.z / fmax(l.z, v.z);
+    }
+}
+
+/* The integral over azimuths at lz = root^2, times d lz/d root: the trapezoid rule, refined until it stands still. */
+static double azimuth_integral(const graze_brdf *brdf, graze_vec3 v, double root) {
+    double sum = 0, before = -1;
+    for (int count = 32; count <= 1 << 16; count *= 2) {
+        for (int i = count == 32 ? 0 : 1; i < count; i += count == 32 ? 1 : 2)
+            sum += value_times_cosine(brdf, direction(root * root, 2 * pi * i / count), v);
+        double integral = 2 * pi * sum / count * 2 * root;
+        if (fabs(integral - before) <= 1e-13 * integral)
+            return integral;
+        before = integral;
+    }
+    return before;
+}
+
+/* Adaptive Simpson's rule. */
+static double adaptive(const graze_brdf *brdf, graze_vec3 v, double a, double b, double fa, double fm, double fb,
+                       double tolerance, int depth) {
+    double m = (a + b) / 2, left = azimuth_integral(brdf, v, (a + m) / 2),
+           right = azimuth_integral(brdf, v, (m + b) / 2);
+    double coarse = (b - a) / 6 * (fa + 4 * fm + fb), fine = (b - a) / 12 * (fa + 4 * left + 2 * fm + 4 * right + fb);
+    if (depth == 0 || fabs(fine - coarse) < 15 * tolerance)
+        return fine + (fine - coarse) / 15;
+    return adaptive(brdf, v, a, m, fa, left, fm, tolerance / 2, depth - 1) +
+           adaptive(brdf, v, m, b, fm, right, fb, tolerance / 2, depth - 1);
+}
+
+static double albedo_over_directions(const graze_brdf *brdf, graze_vec3 v) {
+    double ends[] = {0, sqrt(v.z), 1}, sum = 0; /* Ward-Neumann has a kink at lz = vz */
+    for (int k = 0; k < 2; ++k) {
+        double a = ends[k], b = ends[k + 1];
+        if (a < b)
+            sum += adaptive(brdf, v, a, b, azimuth_integral(brdf, v, a), azimuth_integral(brdf, v, (a + b) / 2),
+                            azimuth_integral(brdf, v, b), 1e-11, 30);
+    }
+    return sum;
+}
+
+static void quadrature_over_directions(void **state) {
+    (void)state;
+    const double alphas[][2] = {{.3, .3}, {.5, .25}, {1, 2}};
+    const double views[][2] = {{0, 0}, {40, 20}, {75, 90}, {87, 200}};
+    for (int model = 0; model < 4; ++model)
+        for (int a = 0; a < 3; ++a)
+            for (int i = 0; i < 4; ++i) {
+                const graze_brdf brdf = {(graze_brdf_model)model, alphas[a][0], alphas[a][1]};
+                graze_vec3 v = from_degrees(views[i][0], views[i][1]);
+                assert_near(graze_brdf_albedo(&brdf, v), albedo_over_directions(&brdf, v), 1e-9);
+            }
+}
+
+/* Towards the horizon: Ward-Duer's weight becomes q/(vz (1 + tau^2)^2), whose mean over slopes is one integral. */
+static void ward_duer_next_to_the_horizon(void **state) {
+    (void)state;
+    for (double alpha = 1e-4; alpha < 10; alpha *= 5) {
+        const graze_brdf brdf = {GRAZE_BRDF_WARD_DUER, alpha, alpha};
+        double sum = 0, step = 1. / 8192;
+        for (int i = 0; i < 8 * 8192; ++i) {
+            double r = (i + .5) * step, square = 1 + alpha * alpha * r * r;
+            sum += step * r * r * exp(-r * r) / (square * square);
+        }
+        assert_near(graze_brdf_albedo(&brdf, (graze_vec3){.6, .8, 1e-150}), 2 * alpha / pi * sum * 1e150, 1e-6);
+        assert_near(graze_brdf_albedo(&brdf, (graze_vec3){.6, .8, 1e-20}), 2 * alpha / pi * sum * 1e20, 1e-6);
+    }
+}
+
+/* Digits that a rule of four times the density gave, for lobes no simple rule would do: alpha, alpha, cosine, azimuth.
+ */
+static void extreme_anisotropy(void **state) {
+    (void)state;
+    static const struct {
+        double alpha_x, alpha_y, cosine, azimuth, albedo[4];
+    } cases[] = {
+        {0.003, 8.3, 4e-39, 6, {1, 6.64866429144e+16, 2.24594230535e+36, 0.0089837692214}},
+        {3.7, 3.7, 0.0004, 1.1, {0.995906157321, 0.809613225879, 51.2472559247, 0.0204988983037}},
+        {5e-05, 0.5, 0.0013, 0, {0.875278830317, 0.000993283477461, 0.830259368254, 0.000919757878365}},
+        {1e-06, 10, 0.13, 0.8, {0.49712429105, 0.0513830939798, 0.195666738375, 0.0251038774259}},
+        {10, 1e-06, 0.08, 3.8, {0.696239348636, 0.068326037228, 0.312743211258, 0.0249331323765}},
+        {7.09, 0.0034, 0.098, 0, {0.778555571154, 0.120432926555, 0.440906122583, 0.0430784609357}},
+        {6.05, 0.0041, 0.34, 1.57, {0.123658562199, 0.0327116775493, 0.119143657151, 0.0281897452265}},
+        {0.0074, 0.016, 8e-05, 4.4, {0.986297397652, 0.0778344486309, 54.7544708125, 0.00438031857322}},
+        {0.0003, 0.0002, 6.5e-07, 1.6, {0.990580474367, 0.00127657931834, 87.3453109067, 5.67742535536e-05}},
+        {0.1, 0.02, 0.017, 0.5, {0.856320922639, 0.0961208620486, 1.97136509864, 0.0332066596405}},
+    };
+    uint64_t seed = 2;
+    for (unsigned i = 0; i < sizeof cases / sizeof *cases; ++i)
+        for (int model = 0; model < 4; ++model) {
+            const graze_brdf brdf = {(graze_brdf_model)model, cases[i].alpha_x, cases[i].alpha_y};
+            graze_vec3 v = direction(cases[i].cosine, cases[i].azimuth);
+            assert_near(graze_brdf_albedo(&brdf, v), cases[i].albedo[model], 1e-9);
+            if (cases[i].cosine > .01 || model == GRAZE_BRDF_GMD) /* other weights vary too much for a mean */
+                check_mean_weight(&brdf, v, cases[i].albedo[model], &seed);
+        }
+}
+
+static void bounded_everywhere(void **state) {
+    (void)state;
+    uint64_t seed = 3;
+    for (int i = 0; i < 300; ++i) {
+        const graze_brdf brdf = {GRAZE_BRDF_GMD, draw_power(&seed, 1e-6, 10), draw_power(&seed, 1e-6, 10)};
+        double albedo = graze_brdf_albedo(&brdf, direction(draw_power(&seed, 1e-12, 1), draw_between(&seed, 0, 7)));
+        assert_true(albedo > 0 && albedo <= 1);
+    }
+}
+
+/* Figures 6 and 7 */
+static void albedos_at_grazing_angles(void **state) {
+    (void)state;
+    graze_vec3 v = {1, 0, 1e-9};
+    graze_brdf brdf = {GRAZE_BRDF_GMD, .1, .1};
+    assert_true(graze_brdf_albedo(&brdf, v) > .999999);
+    brdf.model = GRAZE_BRDF_WARD;
+    assert_true(graze_brdf_albedo(&brdf, v) > 1);
+    brdf.model = GRAZE_BRDF_WARD_DUER;
+    assert_true(graze_brdf_albedo(&brdf, v) > 1);
+    brdf.model = GRAZE_BRDF_WARD_NEUMANN;
+    assert_true(graze_brdf_albedo(&brdf, v) < .1);
+}
+
+static void every_view_has_an_albedo(void **state) {
+    (void)state;
+    const double cosines[] = {1, 1e-8, 1e-150, 1e-300, DBL_MIN, 5e-324};
+    const double alphas[] = {GRAZE_ROUGHNESS_MIN, 1, GRAZE_ROUGHNESS_MAX};
+    for (int i = 0; i < 6; ++i)
+        for (int a = 0; a < 9; ++a)
+            for (int model = 0; model < 4; ++model) {
+                const graze_brdf brdf = {(graze_brdf_model)model, alphas[a % 3], alphas[a / 3]};
+                double albedo = graze_brdf_albedo(&brdf, direction(cosines[i], 1));
+                assert_true(albedo >= 0 && albedo <= (model == GRAZE_BRDF_GMD ? 1 : DBL_MAX));
+            }
+    const graze_brdf brdf = {GRAZE_BRDF_GMD, .1, .1};
+    assert_true(graze_brdf_albedo(&brdf, (graze_vec3){1, 0, 0}) == 0);
+    assert_true(graze_brdf_albedo(&brdf, (graze_vec3){.6, 0, -.8}) == 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(table_of_albedos),
+        cmocka_unit_test(white_furnace),
+        cmocka_unit_test(normal_incidence),
+        cmocka_unit_test(quadrature_over_directions),
+        cmocka_unit_test(ward_duer_next_to_the_horizon),
+        cmocka_unit_test(extreme_anisotropy),
+        cmocka_unit_test(bounded_everywhere),
+        cmocka_unit_test(albedos_at_grazing_angles),
+        cmocka_unit_test(every_view_has_an_albedo),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,235 @@
+#!/bin/bash
+# brdfeval as its users run it: queries, fields, formats, bad input, bad output, threads. TAP.
+set -u
+root=${GRAZE_ROOT:-$(cd "$(dirname "$0")/../.." && pwd)}
+bin=${BIN:-$root/bin}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+brdfeval=$bin/brdfeval
+count=0
+
+ok() { # ok NAME STATUS
+    count=$((count + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $count - $1"; else echo "not ok $count - $1"; fi
+}
+check() { # check NAME COMMAND...: the command must succeed
+    local name=$1
+    shift
+    "$@" >check.log 2>&1
+    local status=$?
+    ok "$name" $status
+    [ $status -eq 0 ] || sed 's/^/# /' check.log
+}
+# prints NAME EXPECTED INPUT ARGUMENTS...: brdfeval must answer with these numbers, each within a millionth; - stands for any
+prints() {
+    local name=$1 expected=$2 input=$3
+    shift 3
+    printf '%b' "$input" | "$brdfeval" "$@" >out 2>err
+    local got=$?
+    [ $got -eq 0 ] && awk -v want="$expected" '
+        { for (i = 1; i <= NF; i++) got[++n] = $i }
+        END {
+            if (split(want, w) != n) exit 1
+            for (i = 1; i <= n; i++) {
+                d = got[i] - w[i]; if (d < 0) d = -d
+                m = w[i] < 0 ? -w[i] : w[i]
+                if (w[i] != "-" && d > 1e-6 * m) exit 1
+            }
+        }' out
+    local result=$?
+    ok "$name" $result
+    [ $result -eq 0 ] || { echo "# expected $expected, got (status $got):"; cat out err | sed 's/^/# /'; }
+}
+# fails NAME STATUS TEXT INPUT ARGUMENTS...: brdfeval must exit with the status and say the text
+fails() {
+    local name=$1 status=$2 text=$3 input=$4
+    shift 4
+    printf '%b' "$input" | "$brdfeval" "$@" >out 2>err
+    local got=$?
+    [ $got -eq "$status" ] && grep -qF -- "$text" err
+    local result=$?
+    ok "$name" $result
+    [ $result -eq 0 ] || { echo "# status $got, said:"; sed 's/^/# /' err; }
+}
+
+pair=".8 0 .6 0 .6 .8\n" # h = (.8 .6 1.4)
+mirror=".6 0 .8 -.6 0 .8\n"
+
+# eval: the four models by hand. With alpha = .5 and .25, E/(pi ax ay) = exp(-(1.6^2 + 2.4^2)/1.96)/.392699.
+prints "the new model" ".0281309192" "$pair" -ax .5 -ay .25
+prints "... is the default" ".0281309192" "$pair" -m gmd -ax .5 -ay .25
+prints "Ward" ".0131741846" "$pair" -m ward -ax .5 -ay .25
+prints "Ward-Duer" ".0190152976" "$pair" -m ward-duer -ax .5 -ay .25
+prints "Ward-Neumann" ".0114091785" "$pair" -m ward-neumann -ax .5 -ay .25
+prints "-a is both roughnesses" "12.4339799" "$mirror" -a .1
+prints "... unless a later option says otherwise" "6.2169900" "$mirror" -a .1 -ay .2
+prints "roughness is 0.1 by default" "12.4339799" "$mirror"
+prints "-rs and -rd" "6.2488209" "$mirror" -rs .5 -rd .1
+prints "all fields in the mirror direction" "12.4339799 9.9471839 9.9471839 1 9.9471839 1" "$mirror" -o fcpwPW
+prints "fields in any order, and again" "1 12.4339799 1" "$mirror" -o wfw
+prints "-o as one word" "1 12.4339799" "$mirror" -owf
+prints "weights are those of the specular reflectance" ".5 .5" "$mirror" -rs .5 -o wW
+prints "below the surface there is nothing" "0 0 0 0 0 0" "0 0 -1 0 0 1\n" -rd .5 -o fcpwPW
+prints "... nor seen from there" "0 0 0 0 0 0" "0 0 1 .6 0 -.8\n" -rd .5 -o fcpwPW
+prints "... nor on the horizon" "0 0" "1 0 0 0 0 1\n0 0 1 0 1 0\n"
+prints "angles in degrees" "12.4339799 12.4339799" \
+    "36.86989764584402 0 36.86989764584402 180\n36.86989764584402 -100 36.86989764584402 440\n" --angles
+prints "90 degrees is the horizon" "0" "90 0 45 0\n" --angles
+prints "any length is taken" "12.4339799" "6e200 0 8e200 -6e-200 0 8e-200\n"
+printf "%b" "$mirror" | "$brdfeval" >exact
+for length in 1.0000009 1.0000011; do
+    awk -v OFMT=%.17g "BEGIN { print .6 * $length, 0, .8 * $length, -.6, 0, .8 }" | "$brdfeval" >"length $length"
+done
+check "lengths off by rounding are left alone" sh -c "! cmp -s 'length 1.0000009' exact"
+check "... others not" test "$(cut -c1-10 <"length 1.0000011")" = "$(cut -c1-10 <exact)"
+
+# sample, pair, albedo.
+prints "Ward's sampling at s = 0 is the mirror direction" "-.6 0 .8 9.9471839 1" ".6 0 .8 0 .3\n" -q sample
+prints "... along x" ".3846154 0 .9230769 - .96" "0 0 1 .6321205588 0\n" -q sample -ax .2 -rs 1
+prints "... elsewhere" "- - .9230769 - .96" "0 0 1 .6321205588 .37\n" -q sample -a .2
+prints "... rejected" "- - - 0 0" "1 0 1e-9 .5 .5\n" -q sample
+prints "paired sampling keeps the first" ".96 0 .28 - .4375" "0 0 1 .6321205588 0 0\n" -q pair -a .75
+prints "... or the second" "-.96 0 .28 - .4375" "0 0 1 .6321205588 0 .6\n" -q pair -a .75
+prints "... rejected below the surface" "- - - 0 0" ".6 0 -.8 .5 .5 .5\n" -q pair
+prints "samples of a view in degrees" "-.6 0 .8 9.9471839 .5" "36.86989764584402 0 0 .3\n" -q sample --angles -rs .5
+prints "albedo" ".990000 .973957 .861043" "0 0\n60 10\n89 20\n" -q albedo --angles
+prints "albedo with both reflectances" ".595" "0 0 1\n" -q albedo -rs .5 -rd .1
+prints "albedo below the surface" "0" "0 0 -1\n" -q albedo -rd .5
+prints "no records, no answers" "" ""
+
+# Records for all that follows.
+awk 'BEGIN { srand(7); for (i = 0; i < 2000; i++) printf "%.17g %.17g %.17g %.17g %.17g %.17g\n",
+    rand() - .5, rand() - .5, rand() / 2, rand() - .5, rand() - .5, rand() / 2 }' >pairs
+awk 'BEGIN { srand(8); for (i = 0; i < 2000; i++) printf "%.17g %.17g %.17g %.17g %.17g %.17g\n",
+    rand() - .5, rand() - .5, rand() / 2, rand(), rand(), rand() }' >views
+cut -d' ' -f1-5 views >views5
+head -20 views | cut -d' ' -f1-3 >views3
+
+# Order does not matter to the value: the same bits.
+awk '{ print $4, $5, $6, $1, $2, $3 }' pairs >exchanged
+for model in gmd ward ward-duer ward-neumann; do
+    "$brdfeval" -m $model -ax .2 -ay .3 <pairs >there
+    "$brdfeval" -m $model -ax .2 -ay .3 <exchanged >back
+    check "$model: exchanged directions give the same bits" cmp there back
+done
+check "... of numbers that are not all zero" bash -c "[ \$(grep -vc '^0' there) -gt 1000 ]"
+
+# Formats tell the same numbers.
+"$brdfeval" -o fcpwPW -faa <pairs >ascii
+"$brdfeval" -o fcpwPW -fad <pairs >doubles
+"$brdfeval" -o fcpwPW -faf <pairs >floats
+check "six doubles are 48 bytes" test "$(wc -c <doubles)" -eq 96000
+check "six floats are 24 bytes" test "$(wc -c <floats)" -eq 48000
+od -An -v -w48 -tfD doubles | awk '{ for (i = 1; i <= NF; i++) printf "%.9g ", $i; print "" }' >from_doubles
+awk '{ for (i = 1; i <= NF; i++) printf "%.9g ", $i; print "" }' ascii >from_ascii
+check "doubles are the numbers in ASCII" cmp from_doubles from_ascii
+od -An -v -w24 -tfF floats | awk '{ for (i = 1; i <= NF; i++) printf "%.5g ", $i; print "" }' >from_floats
+check "floats are, too" bash -c "awk '{ for (i = 1; i <= NF; i++) printf \"%.5g \", \$i; print \"\" }' ascii |
+    paste - from_floats | awk '{ for (i = 1; i <= 6; i++) { d = \$i - \$(i + 6); if (d * d > 1e-8 * \$i * \$i && \$i > 1e-37) exit 1 } }'"
+
+# Six weights are a pair of directions above the surface: through doubles or through ASCII, the same bits arrive.
+"$brdfeval" -o wWwwWW -faa <pairs | tee six | "$brdfeval" -a .5 -fad -o fcpwPW >through_ascii
+"$brdfeval" -o wWwwWW -fad <pairs | "$brdfeval" -a .5 -fdd -o fcpwPW >through_doubles
+check "doubles survive the way through ASCII to the bit" cmp through_ascii through_doubles
+check "... all of them" test "$(wc -c <through_ascii)" -eq 96000
+check "... printed in full" grep -qE '[0-9]{16}' six
+"$brdfeval" -faa -o fcpwPW <pairs >first
+check "answers are the same at a second time" cmp first ascii
+
+# The same bytes, whatever the threads and the flush interval.
+for query in "eval -o fcpwPW:pairs" "sample:views5" "pair:views" "albedo:views3"; do
+    for n in 1 2 5; do "$brdfeval" -q ${query%:*} -n $n -ax .2 -ay .4 <"${query#*:}" >n$n; done
+    check "-q ${query%%[ :]*}: one thread and two" cmp n1 n2
+    check "-q ${query%%[ :]*}: one thread and five" cmp n1 n5
+    "$brdfeval" -q ${query%:*} -n 2 -x 3 -ax .2 -ay .4 <"${query#*:}" >x3
+    check "-q ${query%%[ :]*}: with -x" cmp n1 x3
+    check "-q ${query%%[ :]*}: an answer a record" test "$(wc -l <n1)" -eq "$(wc -l <"${query#*:}")"
+done
+
+# Header.
+"$brdfeval" -h -ofc </dev/null >header
+check "header: the first line" test "$(head -1 header)" = "#?RADIANCE"
+check "header: ASCII" grep -qx 'FORMAT=ascii' header
+check "header: how many numbers" grep -qx 'NCOMP=2' header
+check "header: ends with an empty line" test -z "$(tail -1 header)"
+check "header: the command line" grep -q 'brdfeval -h -ofc$' header
+"$brdfeval" -h -fad -q pair </dev/null >header
+check "header: doubles" grep -qx 'FORMAT=double' header
+check "header: five numbers" grep -qx 'NCOMP=5' header
+"$brdfeval" -h+ -faf </dev/null >header
+check "header: floats" grep -qx 'FORMAT=float' header
+check "header: order of bytes" grep -qx 'BigEndian=0' header
+check "no header without -h" test -z "$("$brdfeval" </dev/null)"
+
+# An interactive client is answered before it sends more.
+check "answers come before the next record is sent" bash -c '
+    coproc '"$brdfeval"'
+    for i in 1 2 3; do
+        echo ".6 0 .8 -.6 0 .8" >&${COPROC[1]}
+        read -t 20 answer <&${COPROC[0]} || exit 1
+        [[ $answer = 12.43397* ]] || exit 1
+    done'
+
+# Bad records: what was answered stays.
+fails "a word in a record" 1 "record 2" "${mirror}0 0 x 0 0 1\n"
+check "... with the answers before it" test "$(wc -l <out)" -eq 1
+fails "nan" 1 "record 1" "0 0 nan 0 0 1\n"
+fails "inf" 1 "record 3" "$mirror${mirror}0 0 1 0 0 inf\n"
+check "... with the answers before it" test "$(wc -l <out)" -eq 2
+fails "a number too large" 1 "record 1" "0 0 1e999 0 0 1\n"
+fails "a record cut short" 1 "record 2" "${mirror}0 0 1"
+fails "numbers behind the last record" 1 "record 2 is cut short" "${mirror}1\n"
+fails "a record in doubles cut short" 1 "record 1" "abcdefg" -fd
+fails "a float that is not finite" 1 "record 1" '\0377\0377\0377\0377\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0' -ff
+fails "a light without direction" 1 "record 2: the direction to the light is zero" "${mirror}0 0 0 0 0 1\n"
+check "... with the answers before it" test "$(wc -l <out)" -eq 1
+fails "a viewer without direction" 1 "record 1: the direction to the viewer is zero" "0 0 1 0 0 0\n"
+fails "a sample's viewer without direction" 1 "record 1: the direction to the viewer is zero" "0 0 0 .1 .2\n" -q sample
+fails "s of 1" 1 "record 2: s is 1" "0 0 1 .1 .2\n0 0 1 1 .2\n" -q sample
+check "... with the answers before it" test "$(wc -l <out)" -eq 1
+fails "t below 0" 1 "record 1: t is -0.1" "0 0 1 .1 -.1\n" -q sample
+fails "u of 2" 1 "record 1: u is 2" "0 0 1 .1 .1 2\n" -q pair
+{ seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; echo 0 0 0 0 0 1; seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; } >late
+for n in 1 4; do
+    "$brdfeval" -n $n <late >out 2>err
+    check "a bad record far down, -n $n" test "$? $(wc -l <out) $(grep -c 'record 1001:' err)" = "1 1000 1"
+done
+
+# Bad options.
+fails "an unknown model" 1 "'phong'" "" -m phong
+fails "an unknown query" 1 "'what'" "" -q what
+fails "an unknown field" 1 "'x'" "" -o fx
+fails "no field" 1 "-o" "" -o ""
+fails "an unknown format" 1 "-fx" "" -fx
+fails "three formats" 1 "-fafd" "" -fafd
+fails "roughness 0" 1 "-a" "" -a 0
+fails "roughness 0 along x" 1 "-ax" "" -ax 0
+fails "too large a roughness" 1 "-ay" "" -ay 11
+fails "roughness in words" 1 "'rough'" "" -a rough
+fails "a roughness missing" 1 "-a" "" -a
+fails "a reflectance above 1" 1 "-rs" "" -rs 1.5
+fails "an unknown option" 1 "-abc" "" -abc 1
+fails "no threads" 1 "-n" "" -n 0
+fails "an operand" 1 "'file'" "" file
+fails "a missing option file" 1 "nowhere" "" @nowhere
+
+# What every tool has.
+"$brdfeval" -m ward -a .3 -ay .2 -rs .6 -rd .1 -q pair -o fP --angles -fad -h -x 7 -n 3 -defaults >defaults
+sed 's/#.*//' defaults >reread
+check "defaults can be read again" sh -c "'$brdfeval' @reread -defaults | cmp - defaults"
+check "... and are not the default's" sh -c "! '$brdfeval' -defaults | cmp -s - defaults"
+check "--help names the options" sh -c "'$brdfeval' --help | grep -q -- --angles"
+check "--version" sh -c "'$brdfeval' --version | grep -q '^[^ ]* *[0-9Gr]'"
+export ROUGH="-a .2 -rs 1"
+check "options from the environment" test "$(printf "$mirror" | "$brdfeval" '$ROUGH')" = "$(printf "$mirror" | "$brdfeval" -a .2)"
+
+# Bad output.
+if [ -w /dev/full ]; then
+    "$brdfeval" <pairs >/dev/full 2>err
+    check "a full disk" test $? -eq 2
+    check "... says so" grep -q "No space" err
+fi
+(for i in $(seq 50); do cat pairs; done | "$brdfeval" -o fcpwPW 2>err; echo "${PIPESTATUS[1]}" >status) | head -1 >/dev/null
+check "a closed pipe" test "$(cat status)" -eq 2
+echo "1..$count"

@@ -1,0 +1,91 @@
+#!/bin/bash
+# gpict as its users run it: outputs, views, threads, bad input, bad output. TAP.
+set -u
+root=${GRAZE_ROOT:-$(cd "$(dirname "$0")/../.." && pwd)}
+bin=${BIN:-$root/bin}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+gpict=$bin/gpict
+count=0
+
+ok() { # ok NAME STATUS
+    count=$((count + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $count - $1"; else echo "not ok $count - $1"; fi
+}
+check() { # check NAME COMMAND...: the command must succeed
+    local name=$1
+    shift
+    "$@" >check.log 2>&1
+    local status=$?
+    ok "$name" $status
+    [ $status -eq 0 ] || sed 's/^/# /' check.log
+}
+# fails NAME STATUS TEXT ARGUMENTS...: gpict must exit with the status, say the text and leave no file behind
+fails() {
+    local name=$1 status=$2 text=$3
+    shift 3
+    "$gpict" "$@" >out 2>err </dev/null
+    local got=$?
+    [ $got -eq "$status" ] && grep -qF -- "$text" err
+    local result=$?
+    ok "$name" $result
+    [ $result -eq 0 ] || { echo "# status $got, said:"; sed 's/^/# /' err; }
+}
+
+cat >room.rad <<'END'
+void plastic red 0 0 5 .7 .1 .1 .05 .1
+red sphere ball 0 0 4 0 5 0 1
+void light white 0 0 3 9 9 9
+white sphere lamp 0 0 4 2 3 2 .3
+END
+view="-vp 0 0 0 -vd 0 1 0 -vh 40 -vv 40"
+
+# What is written.
+"$gpict" $view -x 30 -y 20 room.rad >a.hdr
+check "HDR to standard output" grep -aq '^FORMAT=32-bit_rle_rgbe$' a.hdr
+check "with its view" grep -aq '^VIEW= -vtv -vp 0 0 0 -vd 0 1 0' a.hdr
+check "as large as the view's shape allows" grep -aq '^-Y *20 +X *20' a.hdr
+"$gpict" $view -x 30 -y 20 -pa 0 room.rad >b.hdr
+check "or as large as was said" grep -aq '^-Y *20 +X *30' b.hdr
+"$gpict" $view -x 20 -y 20 -o c.hdr -o c.exr -o c.png --contours lines.png room.rad
+check "HDR, EXR, PNG and contours at once" test -s c.hdr -a -s c.exr -a -s c.png -a -s lines.png
+check "EXR is EXR" test "$(head -c 4 c.exr | od -An -tx1 | tr -d ' ')" = 762f3101
+check "PNG is PNG" test "$(head -c 4 c.png | od -An -tx1 | tr -d ' ')" = 89504e47
+check "the view of a picture" sh -c "$gpict -vf a.hdr -x 30 -y 20 room.rad | tail -c 500 > d && tail -c 500 a.hdr | cmp - d"
+for type in v l c h a s; do
+    "$gpict" -vt$type -vp 0 0 0 -vd 0 1 0 -vh 60 -vv 60 -x 16 -y 16 --samples 4 room.rad >type 2>err
+    check "view type $type" test $? -eq 0 -a -s type
+done
+check "a scene on standard input" sh -c "$gpict $view -x 30 -y 20 - <room.rad | tail -c 500 | cmp - d"
+check "two scenes are one description" sh -c "head -2 room.rad >one.rad; tail -n +3 room.rad >two.rad;
+    $gpict $view -x 30 -y 20 one.rad two.rad | tail -c 500 | cmp - d"
+
+# The same bytes, whatever the threads.
+for n in 1 2 5; do "$gpict" $view -n $n -x 20 -y 20 -o n$n.exr room.rad; done
+sed -i 's/-n [0-9]/-n N/; s/n[0-9]\.exr/nN.exr/' n1.exr n2.exr n5.exr
+check "one thread and two" cmp n1.exr n2.exr
+check "one thread and five" cmp n1.exr n5.exr
+
+# Bad options and scenes.
+fails "no scene" 1 "no scene" $view
+fails "a null view direction" 1 "direction" -vd 0 0 0 room.rad
+fails "up along the view" 1 "up" -vd 0 0 1 room.rad
+fails "a view of 200 degrees" 1 "view" -vh 200 room.rad
+fails "an unknown view type" 1 "unknown view type" -vtx room.rad
+fails "a view option cut short" 1 "-vp" -vp 1 2
+fails "a view file without a view" 1 "room.rad" -vf room.rad room.rad
+fails "a missing view file" 2 "nowhere" -vf nowhere room.rad
+fails "a picture of no size" 1 "-x" -x 0 room.rad
+fails "an unknown suffix" 1 "strange" -o picture.strange room.rad
+fails "a missing scene" 2 "nowhere.rad" nowhere.rad
+
+# Bad output.
+fails "a folder that is not there" 2 "nowhere/a.hdr" $view -x 4 -y 4 -o nowhere/a.hdr room.rad
+if [ -w /dev/full ]; then
+    "$gpict" $view -x 64 -y 64 --samples 2 room.rad >/dev/full 2>err
+    check "a full disk" test $? -eq 2
+    check "... says so" grep -q "No space" err
+fi
+check "nothing half-done is left behind" sh -c '! ls -A | grep -v -e "\.rad$" -e "^[abc]\.hdr$" -e "^c\.exr$" -e "^c\.png$" -e "^lines\.png$" -e "^[d]$" -e "^n[125]\.exr$" -e "^type$" -e "^err$" -e "^out$" -e "^check.log$"'
+echo "1..$count"

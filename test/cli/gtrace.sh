@@ -1,0 +1,138 @@
+#!/bin/bash
+# gtrace as its users run it: formats, letters, bad input, bad output, threads. TAP.
+set -u
+root=${GRAZE_ROOT:-$(cd "$(dirname "$0")/../.." && pwd)}
+bin=${BIN:-$root/bin}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+gtrace=$bin/gtrace
+count=0
+
+ok() { # ok NAME STATUS
+    count=$((count + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $count - $1"; else echo "not ok $count - $1"; fi
+}
+check() { # check NAME COMMAND...: the command must succeed
+    local name=$1
+    shift
+    "$@" >check.log 2>&1
+    local status=$?
+    ok "$name" $status
+    [ $status -eq 0 ] || sed 's/^/# /' check.log
+}
+# fails NAME STATUS TEXT INPUT ARGUMENTS...: gtrace must exit with the status and say the text
+fails() {
+    local name=$1 status=$2 text=$3 input=$4
+    shift 4
+    printf '%b' "$input" | "$gtrace" "$@" >out 2>err
+    local got=$?
+    [ $got -eq "$status" ] && grep -qF -- "$text" err
+    local result=$?
+    ok "$name" $result
+    [ $result -eq 0 ] || { echo "# status $got, said:"; sed 's/^/# /' err; }
+}
+
+cat >room.rad <<'END'
+void metal2 shiny 4 1 1 0 . 0 6 .6 .6 .6 .8 .1 .2
+shiny polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0
+void light white 0 0 3 9 9 9
+white sphere lamp 0 0 4 0 3 2 .3
+END
+down="0 0 1 0 0 -1\n"
+for i in $(seq 200); do echo "0 $((i % 7 - 3)) 1 .$i 1 -1"; done >rays
+
+# What is printed.
+check "names and lengths" test "$(printf "$down" | "$gtrace" -h -osmMLl room.rad)" = \
+    "$(printf 'floor\tshiny\tshiny\t1.000000e+00\t1.000000e+00\t')"
+check "nothing hit" test "$(echo "0 0 1 1 0 0" | "$gtrace" -h -osmLNp room.rad)" = \
+    "$(printf '*\t*\t1.000000e+10\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t1.000000e+00\t')"
+check "a zero direction asks for an empty record" test "$(echo "1 2 3 0 0 0" | "$gtrace" -h -ovLs room.rad)" = \
+    "$(printf '0.000000e+00\t0.000000e+00\t0.000000e+00\t1.000000e+10\t*\t')"
+check "-ld looks no farther" test "$(echo "0 0 1 0 0 -.5" | "$gtrace" -h -ld -os room.rad)" = "$(printf '*\t')"
+check "the light's radiance, without error" test "$(echo "0 0 2 0 1 0" | "$gtrace" -h -ove room.rad)" = \
+    "$(printf '9.000000e+00\t9.000000e+00\t9.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t')"
+"$gtrace" -ff -ov room.rad </dev/null >header
+check "header of float answers" grep -q '^FORMAT=float$' header
+check "header counts the numbers" grep -q '^NCOMP=3$' header
+check "header names the order of bytes" grep -q '^BigEndian=0$' header
+check "-x and -y print the resolution" test "$(head -2 rays | "$gtrace" -h -x 2 -y 1 -os room.rad | head -1)" = "-Y 1 +X 2"
+check "-y ends the run" test "$("$gtrace" -h -y 5 -os room.rad <rays | wc -l)" -eq 5
+"$gtrace" -ab 3 -av .1 .2 .3 -ovL -defaults >defaults
+sed 's/#.*//' defaults >reread
+check "defaults can be read again" sh -c "'$gtrace' @reread -defaults | cmp - defaults"
+
+# Formats tell the same numbers.
+"$gtrace" -h -fad room.rad <rays >doubles
+"$gtrace" -h -faf room.rad <rays >floats
+"$gtrace" -h -fac room.rad <rays >colors
+check "double answers have 24 bytes" test "$(wc -c <doubles)" -eq 4800
+check "float answers have 12 bytes" test "$(wc -c <floats)" -eq 2400
+check "color answers have 4 bytes" test "$(wc -c <colors)" -eq 800
+"$gtrace" -h -faa -ood room.rad <rays >ascii
+"$gtrace" -h -fad -ood room.rad <rays | "$gtrace" -h -fda -ood room.rad >ascii2
+check "rays in doubles are the rays in ASCII" cmp ascii ascii2
+
+# The same bytes, whatever the threads; other seeds, other bytes.
+for n in 1 2 5; do "$gtrace" -h -ab 1 -n $n -fad -ove room.rad <rays >n$n; done
+check "one thread and two" cmp n1 n2
+check "one thread and five" cmp n1 n5
+"$gtrace" -h -ab 1 --seed 1 -fad -ove room.rad <rays >seed
+check "another seed" sh -c '! cmp -s n1 seed'
+check "the same ray gets its own stream" sh -c "printf '$down$down' | $gtrace -h room.rad | uniq | wc -l | grep -qx 2"
+
+# An interactive client is answered before it sends more.
+check "answers come before the next ray is sent" bash -c '
+    coproc '"$gtrace"' -h -os room.rad
+    for i in 1 2 3; do
+        echo "0 0 1 0 0 -1" >&${COPROC[1]}
+        read -t 20 answer <&${COPROC[0]} || exit 1
+        [ "$answer" = floor ] || exit 1
+    done'
+
+# Bad rays: what was answered stays.
+fails "a word in a ray" 1 "record 2" "${down}0 0 x 0 0 1\n" -h -os room.rad
+check "... with the answers before it" test "$(cat out)" = "$(printf 'floor\t')"
+fails "nan in a ray" 1 "record 1" "0 0 nan 0 0 1\n" -h room.rad
+fails "inf in a ray" 1 "record 1" "0 0 inf 0 0 1\n" -h room.rad
+fails "a ray cut short" 1 "record 2" "${down}0 0 1" -h room.rad
+fails "a binary ray cut short" 1 "record 1" "abcdefg" -h -ff room.rad
+fails "a binary ray that is not finite" 1 "record 1" '\0377\0377\0377\0377\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0' -h -ff room.rad
+fails "fewer rays than promised" 1 "ended after 1 of 4" "$down" -h -x 2 -y 2 room.rad
+
+# Bad options.
+fails "an unknown option" 1 "-q" "" -q room.rad
+fails "an option without its argument" 1 "-ab" "" -ab
+fails "a word for a number" 1 "-ab" "" -ab two room.rad
+fails "a number out of range" 1 "-ab" "" -ab -1 room.rad
+fails "an infinite number" 1 "-lw" "" -lw inf room.rad
+fails "an unknown format" 1 "-fxy" "" -fxy room.rad
+fails "an unknown letter" 1 "'q'" "" -ovq room.rad
+fails "a letter of rtrace's that is not supported" 1 "not supported" "" -oW room.rad
+fails "colors of more than the value" 1 "-ov" "" -fac -ovl room.rad
+fails "an unknown strategy" 1 "'fast'" "" --strategy fast room.rad
+fails "one sample" 1 "2 samples" "" --samples 1 room.rad
+fails "no scene" 1 "no scene" ""
+fails "standard input as a scene" 1 "standard input" "" -
+fails "irradiance of nothing" 1 "-os" "" -i -os room.rad
+fails "a missing option file" 1 "nowhere" "" @nowhere
+
+# Bad scenes.
+fails "a missing scene" 2 "nowhere.rad" "" nowhere.rad
+echo "void plastic p 0 0 5 1 1 1 0" >cut.rad
+fails "a scene cut short" 1 "cut.rad:1" "" cut.rad
+printf '#comment\nvoid glass g 0 0 3 1 1 1\ng sphere s 0 0 4 0 0 0 1\n' >glass.rad
+fails "a type not supported" 1 "glass.rad:2:1: glass g" "" glass.rad
+printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
+fails "an undefined modifier" 1 "undefined.rad:1:1" "" undefined.rad
+fails "a failing command" 1 "exit 3" "" '!exit 3'
+
+# Bad output.
+if [ -w /dev/full ]; then
+    "$gtrace" -h room.rad <rays >/dev/full 2>err
+    check "a full disk" test $? -eq 2
+    check "... says so" grep -q "No space" err
+fi
+("$gtrace" -h -ab 1 room.rad 2>err <<<"$(for i in $(seq 100); do cat rays; done)"; echo $? >status) | head -1 >/dev/null
+check "a closed pipe" test "$(cat status)" -eq 2
+echo "1..$count"

@@ -1,0 +1,644 @@
+/* Hits against brute force in double precision; watertight meshes; edges, corners and coincident faces. */
+#include "geometry/make.h"
+
+#include "geometry/geometry.h"
+#include "geometry/oracle.h"
+
+static arena *memory;
+
+static int set_up(void **state) {
+    (void)state;
+    memory = arena_create();
+    return memory ? 0 : -1;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    arena_destroy(memory);
+    return 0;
+}
+
+static geometry *build(const shape *shapes, size_t count, int threads) {
+    geometry *g;
+    messages m = {0};
+    graze_report report = {messages_write, &m};
+    if (geometry_build(&g, shapes, count, threads, &report) != GRAZE_OK)
+        fail_msg("%s", m.last);
+    return g;
+}
+
+static shape quadrangle(vec3 a, vec3 b, vec3 c, vec3 d) { return make_polygon(memory, 4, (vec3[]){a, b, c, d}); }
+
+static shape triangle(vec3 a, vec3 b, vec3 c) { return make_polygon(memory, 3, (vec3[]){a, b, c}); }
+
+static geometry_ray ray_from(vec3 origin, vec3 direction, int from) {
+    return (geometry_ray){origin, vec3_normalize(direction), GEOMETRY_FAR, from};
+}
+
+static void empty_scene(void **state) {
+    (void)state;
+    geometry *g = build(NULL, 0, 1);
+    geometry_ray ray = ray_from(vec3_make(0, 0, 0), vec3_make(0, 0, 1), -1);
+    geometry_hit hit;
+    assert_false(geometry_intersect(g, &ray, &hit));
+    assert_int_equal(hit.surface, -1);
+    assert_false(geometry_occluded(g, &ray, -1));
+    vec3 lower, upper;
+    geometry_bounds(g, &lower, &upper);
+    assert_true(lower.x > upper.x && lower.y > upper.y && lower.z > upper.z);
+    geometry_destroy(g);
+    geometry_destroy(NULL);
+}
+
+#define ZOO_POLYGONS 40
+#define ZOO_CURVED 40
+#define ZOO (ZOO_POLYGONS + ZOO_CURVED)
+
+/* Polygons with holes, spheres, cylinders, cones and rings all through one another. */
+static void roll_zoo(dice *d, shape *shapes, double scale, vec3 at) {
+    for (int i = 0; i < ZOO_POLYGONS; i++) {
+        double x[OUTLINE_LIMIT], y[OUTLINE_LIMIT];
+        uint32_t n = i % 3 ? 3 : roll_outline(d, x, y);
+        vec3 origin = vec3_add(at, roll_in_cube(d, scale)), v[OUTLINE_LIMIT];
+        frame f = frame_around(roll_direction(d));
+        for (uint32_t k = 0; k < n; k++) {
+            if (n == 3)
+                v[k] = vec3_add(origin, roll_in_cube(d, 0.5 * scale));
+            else
+                v[k] = vec3_add_scaled(vec3_add_scaled(origin, 0.5 * scale * x[k], f.x), 0.5 * scale * y[k], f.y);
+        }
+        shapes[i] = make_polygon(memory, n, v);
+    }
+    for (int i = 0; i < ZOO_CURVED; i++) {
+        vec3 p0 = vec3_add(at, roll_in_cube(d, scale)), p1 = vec3_add(p0, roll_in_cube(d, 0.5 * scale));
+        double r = scale * roll_between(d, 0.01, 0.3);
+        shape *s = &shapes[ZOO_POLYGONS + i];
+        if (i % 4 == 0)
+            *s = make_sphere(memory, p0, r);
+        else if (i % 4 == 1)
+            *s = make_cone(memory, p0, p1, r, r);
+        else if (i % 4 == 2)
+            *s = make_cone(memory, p0, p1, r, i % 8 == 2 ? 0 : 2 * r);
+        else
+            *s = make_ring(memory, p0, vec3_subtract(p1, p0), 0.3 * r, 1.5 * r);
+        s->inward = i % 4 != 3 && i % 16 >= 8;
+    }
+}
+
+/* Whether the oracle's answer hangs on less than double precision can tell. */
+static bool is_doubtful(const oracle_crossing *c, double size) { return c->margin < 1e-13 * size; }
+
+static int compare_with_oracle(const geometry *g, const shape *shapes, const geometry_ray *ray, double near, double size,
+                               geometry_hit *hit) {
+    oracle_crossing expected = oracle_nearest(shapes, ZOO, ray, near);
+    bool found = geometry_intersect(g, ray, hit);
+    assert_true(found == (hit->surface >= 0));
+    assert_true(geometry_occluded(g, ray, -1) == found || is_doubtful(&expected, size));
+    if (hit->surface != expected.surface) {
+        if (!is_doubtful(&expected, size))
+            fail_msg("surface %d, not %d at %.17Lg (margin %Lg)", hit->surface, expected.surface, expected.distance,
+                     expected.margin);
+        return 0;
+    }
+    if (!found)
+        return 0;
+    double cosine = fabs(vec3_dot(hit->normal, ray->direction));
+    assert_true(expected.front == (vec3_dot(hit->normal, ray->direction) < 0) || cosine < 1e-7);
+    if (cosine < 1e-4)
+        return 1;
+    double tolerance = 1e-12 * hit->distance + 16 * 0x1p-52 * size / cosine;
+    if (fabsl(hit->distance - expected.distance) > tolerance)
+        fail_msg("surface %d at %.17g, not %.17Lg", hit->surface, hit->distance, expected.distance);
+    vec3 along = vec3_add_scaled(ray->origin, hit->distance, ray->direction);
+    assert_true(vec3_length(vec3_subtract(along, hit->point)) <= tolerance);
+    return 1;
+}
+
+static void same_as_brute_force(void **state) {
+    (void)state;
+    dice d = {11};
+    const double scales[] = {1, 1e-3, 1e3}, aways[] = {0, 1e4};
+    int hits = 0, second_hits = 0;
+    for (int scene = 0; scene < 18; scene++) {
+        double scale = scales[scene % 3];
+        vec3 at = roll_in_cube(&d, aways[scene / 3 % 2] * scale);
+        shape shapes[ZOO];
+        roll_zoo(&d, shapes, scale, at);
+        geometry *g = build(shapes, ZOO, 1 + scene % 2);
+        vec3 lower, upper;
+        geometry_bounds(g, &lower, &upper);
+        vec3 extent = vec3_subtract(upper, lower);
+        double near = 1e-6 * fmin(1, vec3_max_abs(extent)), size = vec3_max_abs(at) + 4 * scale;
+        for (int i = 0; i < 1500; i++) {
+            double from_afar = i % 3 ? 2 : 1000;
+            vec3 origin = vec3_add(at, roll_in_cube(&d, from_afar * scale));
+            vec3 direction = vec3_subtract(vec3_add(at, roll_in_cube(&d, scale)), origin);
+            geometry_ray ray = ray_from(origin, direction, -1);
+            geometry_hit hit;
+            if (!compare_with_oracle(g, shapes, &ray, near, size + from_afar * scale, &hit))
+                continue;
+            hits++;
+            for (int bounce = 0; bounce < 3; bounce++) {
+                ray = ray_from(hit.point, roll_direction(&d), hit.surface);
+                if (!compare_with_oracle(g, shapes, &ray, near, size, &hit))
+                    break;
+                second_hits++;
+            }
+        }
+        geometry_destroy(g);
+    }
+    assert_true(hits > 15000 && second_hits > 15000);
+}
+
+/* Occlusion before the distance given, with and without a surface excepted, against the oracle. */
+static void occlusion_same_as_brute_force(void **state) {
+    (void)state;
+    dice d = {12};
+    shape shapes[ZOO];
+    roll_zoo(&d, shapes, 1, vec3_make(0, 0, 0));
+    geometry *g = build(shapes, ZOO, 1);
+    int occluded = 0, free_ones = 0;
+    for (int i = 0; i < 20000; i++) {
+        vec3 origin = roll_in_cube(&d, 1.5), to = roll_in_cube(&d, 1.5), direction = vec3_subtract(to, origin);
+        geometry_ray ray = ray_from(origin, direction, -1);
+        ray.far = vec3_length(direction);
+        int target = i % 2 ? (int)(roll(&d) * ZOO) : -1;
+        bool expected = false, doubtful = false;
+        for (int s = 0; s < ZOO; s++) {
+            oracle_crossing c[2];
+            int n = s == target ? 0 : oracle_crossings(&shapes[s], exact(ray.origin), exact(ray.direction), c);
+            for (int k = 0; k < n; k++) {
+                expected |= c[k].distance > 1e-6 && c[k].distance < ray.far - 1e-6;
+                doubtful |= is_doubtful(&c[k], 2);
+            }
+        }
+        if (!doubtful)
+            assert_true(geometry_occluded(g, &ray, target) == expected);
+        occluded += expected;
+        free_ones += !expected;
+    }
+    assert_true(occluded > 5000 && free_ones > 2000);
+    geometry_destroy(g);
+}
+
+/* A box of divided faces, normals outward: 12 n^2 triangles. */
+static size_t make_box(shape *shapes, vec3 lower, double edge, int n) {
+    size_t count = 0;
+    for (int face = 0; face < 6; face++)
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) {
+                vec3 corner[4];
+                for (int k = 0; k < 4; k++) {
+                    double u = edge * (i + (k == 1 || k == 2)) / n, v = edge * (j + (k >= 2)) / n;
+                    double w = face & 1 ? edge : 0;
+                    vec3 at = face / 2 == 0 ? vec3_make(w, u, v) : face / 2 == 1 ? vec3_make(v, w, u) : vec3_make(u, v, w);
+                    corner[face & 1 ? k : 3 - k] = vec3_add(lower, at);
+                }
+                shapes[count++] = triangle(corner[0], corner[1], corner[2]);
+                shapes[count++] = triangle(corner[0], corner[2], corner[3]);
+            }
+    return count;
+}
+
+static vec3 globe_point(vec3 center, double radius, int i, int j, int n) {
+    if (i == 0 || i == n)
+        return vec3_add(center, vec3_make(0, 0, i ? -radius : radius));
+    double theta = PI * i / n, phi = 2 * PI * (j % (2 * n)) / (2 * n);
+    return vec3_add(center, vec3_make(radius * sin(theta) * cos(phi), radius * sin(theta) * sin(phi), radius * cos(theta)));
+}
+
+/* A globe of triangles with shared corners. */
+static size_t make_globe(shape *shapes, vec3 center, double radius, int n) {
+    size_t count = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < 2 * n; j++) {
+            vec3 a = globe_point(center, radius, i, j, n), b = globe_point(center, radius, i + 1, j, n);
+            vec3 c = globe_point(center, radius, i + 1, j + 1, n), e = globe_point(center, radius, i, j + 1, n);
+            if (i < n - 1)
+                shapes[count++] = triangle(a, b, c);
+            if (i > 0)
+                shapes[count++] = triangle(a, c, e);
+        }
+    return count;
+}
+
+/* Sends rays about inside of a closed convex surface; each must hit the surface's inside, and so must the ray that goes
+ * on from there in another direction inwards. Every other ray goes for some corner or the middle of some edge. */
+static void check_closed(const shape *shapes, size_t count, vec3 inside, double reach, int rays, uint64_t seed) {
+    geometry *g = build(shapes, count, 2);
+    dice d = {seed};
+    geometry_ray ray = ray_from(inside, vec3_make(0, 0, 1), -1);
+    for (int i = 0; i < rays; i++) {
+        if (i % 8 == 0)
+            ray = ray_from(vec3_add(inside, roll_in_cube(&d, reach)), roll_direction(&d), -1);
+        if (i % 2) {
+            const shape *s = &shapes[(size_t)(roll(&d) * count)];
+            vec3 a = s->polygon.vertices[0], b = s->polygon.vertices[1];
+            vec3 at = i % 4 == 1 ? a : vec3_add_scaled(a, 0.5, vec3_subtract(b, a));
+            /* A ray along the face that it leaves meets nothing. */
+            if (ray.from < 0 || fabs(vec3_dot(shapes[ray.from].polygon.normal, vec3_subtract(at, ray.origin))) > 1e-3 * reach)
+                ray = ray_from(ray.origin, vec3_subtract(at, ray.origin), ray.from);
+        }
+        geometry_hit hit;
+        if (!geometry_intersect(g, &ray, &hit))
+            fail_msg("ray %d leaks from (%.17g %.17g %.17g) towards (%.17g %.17g %.17g), having left %d", i, ray.origin.x,
+                     ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, ray.from);
+        if (!geometry_occluded(g, &ray, -1))
+            fail_msg("ray %d is not occluded", i);
+        vec3 next = roll_direction(&d);
+        if (vec3_dot(next, hit.normal) > 0)
+            next = vec3_negate(next);
+        ray = ray_from(hit.point, next, hit.surface);
+        /* On an edge, to its roundings, inwards of one face may be outwards of the other. */
+        if (i % 2)
+            ray = ray_from(vec3_add_scaled(hit.point, 0.5, vec3_subtract(inside, hit.point)), next, -1);
+    }
+    geometry_destroy(g);
+}
+
+static void no_leaks_in_a_box(void **state) {
+    (void)state;
+    static shape shapes[12 * 20 * 20];
+    size_t count = make_box(shapes, vec3_make(-1, -1, -1), 2, 20);
+    check_closed(shapes, count, vec3_make(0, 0, 0), 0.9, 250000, 5);
+    vec3 far_away = vec3_make(12345.678, -9876.54321, 333.3333);
+    count = make_box(shapes, far_away, 2, 20);
+    check_closed(shapes, count, vec3_add(far_away, vec3_make(1, 1, 1)), 0.9, 250000, 6);
+}
+
+static void no_leaks_in_a_globe(void **state) {
+    (void)state;
+    static shape shapes[4 * 40 * 40];
+    size_t count = make_globe(shapes, vec3_make(0, 0, 0), 1, 40);
+    check_closed(shapes, count, vec3_make(0, 0, 0), 0.5, 250000, 7);
+    count = make_globe(shapes, vec3_make(1e3, 7e3, 1e3 / 3), 1e-3, 40);
+    check_closed(shapes, count, vec3_make(1e3, 7e3, 1e3 / 3), 5e-4, 250000, 8);
+}
+
+/* A globe of triangles half a millimetre large, away from the middle of a site of some kilometres: single precision
+ * over the whole scene is as coarse as its triangles. */
+static void no_leaks_in_a_small_part_of_a_large_scene(void **state) {
+    (void)state;
+    static shape shapes[4 * 40 * 40 + 1];
+    vec3 center = {700, -400, 0.01};
+    size_t count = make_globe(shapes, center, 0.01, 40);
+    shapes[count++] = quadrangle(vec3_make(-2e3, -2e3, -1), vec3_make(2e3, -2e3, -1), vec3_make(2e3, 2e3, -1),
+                                 vec3_make(-2e3, 2e3, -1));
+    geometry *g = build(shapes, count, 1);
+    dice d = {9};
+    for (int i = 0; i < 100000; i++) {
+        geometry_ray ray = ray_from(vec3_add(center, roll_in_cube(&d, 5e-3)), roll_direction(&d), -1);
+        geometry_hit hit;
+        assert_true(geometry_intersect(g, &ray, &hit));
+        if (hit.surface == (int)count - 1)
+            fail_msg("ray %d leaks", i);
+    }
+    geometry_destroy(g);
+}
+
+/* Rays that all but lie in the floor end where it meets a wall: which of both is hit first hangs on the last digits, and
+ * single precision sees them far apart. */
+static void no_leaks_along_the_floor(void **state) {
+    (void)state;
+    for (int n = 1; n <= 9; n += 4) {
+        static shape shapes[12 * 9 * 9];
+        size_t count = make_box(shapes, vec3_make(-1, -1, -1), 2, n);
+        geometry *g = build(shapes, count, 1);
+        dice d = {61};
+        for (int i = 0; i < 50000; i++) {
+            vec3 origin = vec3_make(roll_between(&d, -1, 1), roll_between(&d, -1, 0.9), -1 + pow(10, roll_between(&d, -7, 0)));
+            vec3 to = vec3_make(roll_between(&d, -1, 1), 1, -1 + roll_between(&d, -1, 1) * pow(10, roll_between(&d, -17, -6)));
+            geometry_ray ray = ray_from(origin, vec3_subtract(to, origin), -1);
+            geometry_hit hit;
+            if (!geometry_intersect(g, &ray, &hit))
+                fail_msg("n %d: ray %d leaks from (%.17g %.17g %.17g) towards (%.17g %.17g %.17g)", n, i, origin.x, origin.y,
+                         origin.z, to.x, to.y, to.z);
+            assert_true(geometry_occluded(g, &ray, -1));
+            assert_true(hit.point.z >= -1 - 1e-15 && hit.point.y <= 1 + 1e-15);
+        }
+        geometry_destroy(g);
+    }
+}
+
+/* Nothing is lost right in front of a ray's origin or right before its end, in a scene where single precision sees
+ * nothing below a tenth of a millimetre. */
+static void close_to_both_ends(void **state) {
+    (void)state;
+    frame f = frame_around(vec3_normalize(vec3_make(0.3, -0.5, 0.6)));
+    vec3 corner[4];
+    for (int k = 0; k < 4; k++)
+        corner[k] = frame_to_world(&f, vec3_make(k == 1 || k == 2 ? 1e3 : -1e3, k >= 2 ? 1e3 : -1e3, 0));
+    shape wall = quadrangle(corner[0], corner[1], corner[2], corner[3]);
+    geometry *g = build(&wall, 1, 1);
+    dice d = {71};
+    for (int i = 0; i < 20000; i++) {
+        double slope = roll_between(&d, 0.1, 1), phi = 2 * PI * roll(&d), flat = sqrt(1 - slope * slope);
+        vec3 direction = frame_to_world(&f, vec3_make(flat * cos(phi), flat * sin(phi), -slope));
+        vec3 foot = frame_to_world(&f, vec3_make(roll_between(&d, -900, 900), roll_between(&d, -900, 900), 0));
+        double distance = pow(10, roll_between(&d, -5, 0));
+        geometry_ray ray = ray_from(vec3_add_scaled(foot, -distance, direction), direction, -1);
+        geometry_hit hit;
+        assert_true(geometry_intersect(g, &ray, &hit));
+        assert_true(fabs(hit.distance - distance) < 1e-11);
+        assert_true(geometry_occluded(g, &ray, -1));
+        /* the same seen from afar */
+        ray = ray_from(vec3_add_scaled(foot, -500, direction), direction, -1);
+        ray.far = 500 + 1e-5;
+        assert_true(geometry_occluded(g, &ray, -1));
+        ray.far = 500 - 1e-5;
+        assert_false(geometry_occluded(g, &ray, -1));
+        assert_false(geometry_intersect(g, &ray, &hit));
+    }
+    geometry_destroy(g);
+}
+
+/* From a point of the floor much closer to the wall than what is ignored of coincident surfaces, the wall is seen. */
+static void wall_beside_the_origin(void **state) {
+    (void)state;
+    static shape shapes[12];
+    size_t count = make_box(shapes, vec3_make(-1, -1, -1), 2, 1);
+    geometry *g = build(shapes, count, 1);
+    geometry_ray down = ray_from(vec3_make(1 - 1e-9, 0.3, 0), vec3_make(0, 0, -1), -1);
+    geometry_hit floor_hit, hit;
+    assert_true(geometry_intersect(g, &down, &floor_hit));
+    geometry_ray ray = ray_from(floor_hit.point, vec3_make(1, 0.1, 0.2), floor_hit.surface);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_true(hit.normal.x == 1 && hit.distance < 1.1e-9);
+    assert_true(geometry_occluded(g, &ray, -1));
+    geometry_destroy(g);
+}
+
+/* Lines just inside of a shape's bounds, where single precision may see them outside. */
+static void curved_shapes_up_to_their_bounds(void **state) {
+    (void)state;
+    dice d = {81};
+    int hits = 0;
+    for (int i = 0; i < 2000; i++) {
+        vec3 at = roll_in_cube(&d, 10);
+        double r = roll_between(&d, 0.01, 1);
+        shape shapes[] = {make_sphere(memory, at, r), make_cone(memory, at, vec3_add(at, vec3_make(0, 0, 1)), r, r),
+                          make_ring(memory, at, vec3_make(0, 1, 0), 0, r), make_sphere(memory, vec3_make(0, 0, 0), 1e-3),
+                          make_sphere(memory, vec3_make(-30, -30, -30), 1)};
+        geometry *g = build(shapes, 5, 1);
+        for (int k = 0; k < 60; k++) {
+            int which = k % 3;
+            double inside = pow(10, roll_between(&d, -14, -5));
+            vec3 target = vec3_add(at, vec3_make((k & 1 ? 1 : -1) * r * (1 - inside), 0, 0));
+            vec3 direction = which == 0 ? vec3_make(0, 0, 1) : which == 1 ? vec3_make(0, 1, 0) : roll_direction(&d);
+            if (which == 1)
+                target.z += roll(&d);
+            geometry_ray ray = {vec3_add_scaled(target, -5, direction), direction, GEOMETRY_FAR, -1};
+            shape single = shapes[which];
+            oracle_crossing c[2];
+            geometry_hit hit;
+            int n = oracle_crossings(&single, exact(ray.origin), exact(ray.direction), c);
+            if (n == 0 || is_doubtful(&c[0], 100))
+                continue;
+            assert_true(geometry_occluded(g, &ray, -1));
+            assert_true(geometry_intersect(g, &ray, &hit));
+            hits++;
+        }
+        geometry_destroy(g);
+    }
+    assert_true(hits > 10000);
+}
+
+/* A box stands on a floor; its bottom and the floor coincide. */
+static void coincident_faces(void **state) {
+    (void)state;
+    shape shapes[13];
+    shapes[0] = quadrangle(vec3_make(-5, -5, 0), vec3_make(5, -5, 0), vec3_make(5, 5, 0), vec3_make(-5, 5, 0));
+    size_t count = 1 + make_box(shapes + 1, vec3_make(-1, -1, 0), 2, 1);
+    geometry *g = build(shapes, count, 1);
+    geometry_hit hit;
+    /* From below, the box's bottom faces the ray and the floor does not; from within the box it is the floor. */
+    geometry_ray ray = ray_from(vec3_make(0.1, 0.2, -3), vec3_make(0.1, 0, 1), -1);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_true(hit.surface > 0 && hit.normal.z == -1 && hit.distance > 2.9);
+    ray = ray_from(vec3_make(0.1, 0.2, 1), vec3_make(0.1, 0, -1), -1);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_int_equal(hit.surface, 0);
+    /* A ray that leaves the floor is not stopped by the bottom at its origin, whichever way it goes. */
+    ray = ray_from(hit.point, vec3_make(0, 0.1, 1), 0);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_true(fabs(hit.point.z - 2) < 1e-15);
+    ray = ray_from(ray.origin, vec3_make(0, 0, -1), 0);
+    assert_false(geometry_intersect(g, &ray, &hit));
+    /* Up to 1e-6 away a surface is at the origin, as in Radiance; beyond that it is not. */
+    ray = ray_from(vec3_make(0.1, 0.2, 9e-7), vec3_make(0, 0, -1), -1);
+    assert_false(geometry_intersect(g, &ray, &hit));
+    ray = ray_from(vec3_make(0.1, 0.2, 1.1e-6), vec3_make(0, 0, -1), -1);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_true(fabs(hit.distance - 1.1e-6) < 1e-18);
+    geometry_destroy(g);
+}
+
+/* A sheet of two polygons back to back shows each side its own; shadows end before what coincides with the target. */
+static void sheet_of_two_sides(void **state) {
+    (void)state;
+    vec3 a = {0, 0, 1}, b = {1, 0, 1}, c = {1, 1, 1.5}, e = {0, 1, 1.5};
+    for (int order = 0; order < 2; order++) {
+        shape shapes[2];
+        shapes[order] = quadrangle(a, b, c, e);
+        shapes[1 - order] = quadrangle(e, c, b, a);
+        geometry *g = build(shapes, 2, 1);
+        dice d = {3};
+        for (int i = 0; i < 2000; i++) {
+            vec3 target = vec3_make(roll_between(&d, 0.1, 0.9), roll_between(&d, 0.1, 0.9), 0);
+            target.z = 1 + 0.5 * target.y;
+            vec3 origin = roll_in_cube(&d, 3);
+            double side = vec3_dot(shapes[order].polygon.normal, vec3_subtract(origin, target));
+            if (fabs(side) < 1e-2)
+                continue;
+            geometry_ray ray = ray_from(origin, vec3_subtract(target, origin), -1);
+            geometry_hit hit;
+            assert_true(geometry_intersect(g, &ray, &hit));
+            assert_int_equal(hit.surface, side > 0 ? order : 1 - order);
+            ray.far = hit.distance;
+            assert_false(geometry_occluded(g, &ray, hit.surface));
+            ray = ray_from(hit.point, vec3_subtract(origin, hit.point), hit.surface);
+            assert_false(geometry_intersect(g, &ray, &hit));
+            assert_false(geometry_occluded(g, &ray, -1));
+        }
+        geometry_destroy(g);
+    }
+}
+
+/* Tiles of one plane do not shadow each other, at any angle; nor do those of a gently convex roof. */
+static void neighbours_do_not_shadow(void **state) {
+    (void)state;
+    static shape shapes[2 * 30 * 30];
+    for (int bend = 0; bend < 3; bend++) {
+        double bow = bend * 1e-3;
+        frame f = frame_around(vec3_normalize(vec3_make(0.3, 0.4, 0.87)));
+        int count = 0;
+        for (int i = 0; i < 30; i++)
+            for (int j = 0; j < 30; j++) {
+                vec3 v[4];
+                for (int k = 0; k < 4; k++) {
+                    double x = (i + (k == 1 || k == 2)) / 30.0, y = (j + (k >= 2)) / 30.0;
+                    v[k] = frame_to_world(&f, vec3_make(x + 37.1, y - 11.3, 5 - bow * (x * x + y * y)));
+                }
+                shapes[count++] = triangle(v[0], v[1], v[2]);
+                shapes[count++] = triangle(v[0], v[2], v[3]);
+            }
+        geometry *g = build(shapes, (size_t)count, 1);
+        dice d = {4};
+        for (int i = 0; i < 50000; i++) {
+            double x = roll(&d), y = roll(&d);
+            if (i % 4 == 0) /* right beside the edge of a tile */
+                x = floor(x * 30) / 30 + 1e-9 * roll(&d);
+            vec3 above = frame_to_world(&f, vec3_make(x + 37.1, y - 11.3, 6));
+            geometry_ray ray = ray_from(above, vec3_negate(f.z), -1);
+            geometry_hit hit;
+            if (!geometry_intersect(g, &ray, &hit))
+                continue;
+            double phi = 2 * PI * roll(&d), slope = pow(10, roll_between(&d, -6, 0));
+            frame tile = frame_around(hit.normal);
+            vec3 direction = frame_to_world(&tile, vec3_make(cos(phi), sin(phi), slope));
+            ray = ray_from(hit.point, direction, hit.surface);
+            if (geometry_intersect(g, &ray, &hit))
+                fail_msg("bend %d, slope %g: hit at %g", bend, slope, hit.distance);
+            assert_false(geometry_occluded(g, &ray, -1));
+        }
+        geometry_destroy(g);
+    }
+}
+
+/* From inside of a sphere the ray that leaves it hits it again; from outside it never does. */
+static void leaving_a_sphere(void **state) {
+    (void)state;
+    shape s = make_sphere(memory, vec3_make(10, 20, 30), 2.5);
+    geometry *g = build(&s, 1, 1);
+    dice d = {21};
+    for (int i = 0; i < 20000; i++) {
+        vec3 point = shape_pull(&s, vec3_add(s.sphere.center, roll_direction(&d)));
+        vec3 direction = roll_direction(&d);
+        double cosine = vec3_dot(direction, shape_normal(&s, point));
+        geometry_ray ray = ray_from(point, direction, 0);
+        geometry_hit hit;
+        bool found = geometry_intersect(g, &ray, &hit);
+        assert_true(found == (cosine < -2e-7) || fabs(fabs(cosine) - 2e-7) < 1e-9);
+        assert_true(geometry_occluded(g, &ray, -1) == found);
+        assert_false(geometry_occluded(g, &ray, 0));
+        if (found)
+            assert_true(fabs(hit.distance + 5 * cosine) < 1e-13);
+    }
+    geometry_destroy(g);
+}
+
+/* The far end: hits at it count, beyond it do not; a light's own surface at it is not in its way. */
+static void far_end(void **state) {
+    (void)state;
+    shape shapes[] = {quadrangle(vec3_make(-1, -1, 2), vec3_make(1, -1, 2), vec3_make(1, 1, 2), vec3_make(-1, 1, 2)),
+                      make_sphere(memory, vec3_make(0, 0, 5), 1)};
+    geometry *g = build(shapes, 2, 1);
+    geometry_ray ray = ray_from(vec3_make(0.1, 0, 0), vec3_make(0, 0, 1), -1);
+    geometry_hit hit;
+    ray.far = 2;
+    assert_true(geometry_intersect(g, &ray, &hit));
+    ray.far = nextafter(2, 0);
+    assert_false(geometry_intersect(g, &ray, &hit));
+    ray.far = 2.001;
+    assert_true(geometry_occluded(g, &ray, -1));
+    assert_false(geometry_occluded(g, &ray, 0));
+    ray.far = GEOMETRY_FAR;
+    assert_true(geometry_occluded(g, &ray, 1));
+    assert_true(geometry_occluded(g, &ray, 0));
+    ray.origin.z = 3;
+    assert_false(geometry_occluded(g, &ray, 1));
+    geometry_destroy(g);
+}
+
+static void rays_that_are_none_hit_nothing(void **state) {
+    (void)state;
+    shape s = make_sphere(memory, vec3_make(0, 0, 0), 1);
+    geometry *g = build(&s, 1, 1);
+    const double bad[] = {NAN, INFINITY, -INFINITY, 1e308};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 6; k++) {
+            double v[6] = {0, 0, 0, 0, 0, 1};
+            v[k] = bad[i];
+            geometry_ray ray = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, GEOMETRY_FAR, -1};
+            geometry_hit hit;
+            assert_false(geometry_intersect(g, &ray, &hit));
+            assert_false(geometry_occluded(g, &ray, -1));
+        }
+    geometry_ray ray = {{0, 0, 0}, {0, 0, 0}, GEOMETRY_FAR, -1};
+    geometry_hit hit;
+    assert_false(geometry_intersect(g, &ray, &hit));
+    ray = ray_from(vec3_make(0, 0, 0), vec3_make(0, 0, 1), -1);
+    ray.far = NAN;
+    assert_false(geometry_intersect(g, &ray, &hit));
+    /* From as far as double precision can aim */
+    ray = ray_from(vec3_make(0, 0, -9e9), vec3_make(0, 0, 1), -1);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_true(hit.distance == 9e9 - 1);
+    geometry_destroy(g);
+}
+
+/* Scenes far smaller and larger than single precision's squares. */
+static void extreme_scales(void **state) {
+    (void)state;
+    for (double scale = 1e-4; scale <= 1e65; scale *= 1e3) {
+        shape shapes[12];
+        size_t count = make_box(shapes, vec3_make(-scale, -scale, -scale), 2 * scale, 1);
+        geometry *g = build(shapes, count, 1);
+        dice d = {31};
+        for (int i = 0; i < 200; i++) {
+            geometry_ray ray = ray_from(roll_in_cube(&d, 0.9 * scale), roll_direction(&d), -1);
+            ray.far = 1e100;
+            geometry_hit hit;
+            assert_true(geometry_intersect(g, &ray, &hit));
+            assert_true(fabs(vec3_max_abs(hit.point) - scale) <= 1e-15 * scale);
+        }
+        geometry_destroy(g);
+    }
+}
+
+/* Large enough for the building's threads to come in; the answers must not depend on them. */
+static void threads_change_nothing(void **state) {
+    (void)state;
+    enum { SIDE = 60 };
+    shape *shapes = malloc(12 * SIDE * SIDE * sizeof *shapes);
+    assert_non_null(shapes);
+    size_t count = make_box(shapes, vec3_make(0, 0, 0), 1, SIDE);
+    assert_true(count > 40000);
+    geometry *one = build(shapes, count, 1), *many = build(shapes, count, 4);
+    dice d = {41};
+    for (int i = 0; i < 50000; i++) {
+        geometry_ray ray = ray_from(roll_in_cube(&d, 2), roll_direction(&d), -1);
+        geometry_hit a, b;
+        assert_true(geometry_intersect(one, &ray, &a) == geometry_intersect(many, &ray, &b));
+        assert_int_equal(a.surface, b.surface);
+        if (a.surface >= 0)
+            assert_true(a.distance == b.distance);
+    }
+    geometry_destroy(one);
+    geometry_destroy(many);
+    free(shapes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(empty_scene),
+        cmocka_unit_test(same_as_brute_force),
+        cmocka_unit_test(occlusion_same_as_brute_force),
+        cmocka_unit_test(no_leaks_in_a_box),
+        cmocka_unit_test(no_leaks_in_a_globe),
+        cmocka_unit_test(no_leaks_in_a_small_part_of_a_large_scene),
+        cmocka_unit_test(no_leaks_along_the_floor),
+        cmocka_unit_test(close_to_both_ends),
+        cmocka_unit_test(wall_beside_the_origin),
+        cmocka_unit_test(curved_shapes_up_to_their_bounds),
+        cmocka_unit_test(coincident_faces),
+        cmocka_unit_test(sheet_of_two_sides),
+        cmocka_unit_test(neighbours_do_not_shadow),
+        cmocka_unit_test(leaving_a_sphere),
+        cmocka_unit_test(far_end),
+        cmocka_unit_test(rays_that_are_none_hit_nothing),
+        cmocka_unit_test(extreme_scales),
+        cmocka_unit_test(threads_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

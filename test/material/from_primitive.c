@@ -1,0 +1,204 @@
+/* material_from_primitive: what each type of primitive means, and every way in which its arguments can be wrong. */
+#include "support.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "material/from_primitive.h"
+
+typedef struct log_of_report {
+    int errors, warnings;
+    char text[2000];
+} log_of_report;
+
+static void keep(void *user, graze_severity severity, const char *text) {
+    log_of_report *log = user;
+    *(severity == GRAZE_ERROR ? &log->errors : &log->warnings) += 1;
+    snprintf(log->text + strlen(log->text), sizeof log->text - strlen(log->text), "%s\n", text);
+}
+
+static const place where = {.file = "room.rad", .line = 12, .column = 3};
+
+static graze_status convert(graze_material *m, log_of_report *log, rad_type type, uint32_t string_count,
+                            const char *const *strings, uint32_t real_count, const double *reals) {
+    memset(log, 0, sizeof *log);
+    rad_primitive p = {.type = type,
+                       .modifier = RAD_VOID,
+                       .id = "skin",
+                       .string_count = string_count,
+                       .real_count = real_count,
+                       .strings = strings,
+                       .reals = reals,
+                       .where = &where};
+    graze_report report = {keep, log};
+    return material_from_primitive(m, &p, &report);
+}
+
+static void assert_refused(rad_type type, uint32_t string_count, const char *const *strings, uint32_t real_count,
+                           const double *reals, const char *why) {
+    graze_material m;
+    log_of_report log;
+    assert_int_equal(convert(&m, &log, type, string_count, strings, real_count, reals), GRAZE_INPUT_ERROR);
+    assert_int_equal(log.errors, 1);
+    if (!strstr(log.text, why) || !strstr(log.text, "room.rad:12:3:"))
+        fail_msg("\"%s\" does not say where and \"%s\"", log.text, why);
+}
+
+static const char *const plain[] = {"1", "-0.5", ".25", "."};
+static const double iso[] = {0.1, 0.2, 0.3, 0.4, 0.05};
+static const double aniso[] = {0.1, 0.2, 0.3, 0.4, 0.05, 0.15};
+
+static void isotropic_types_are_read(void **state) {
+    (void)state;
+    const rad_type types[] = {RAD_PLASTIC, RAD_METAL};
+    for (int i = 0; i < 2; i++) {
+        graze_material m;
+        log_of_report log;
+        assert_int_equal(convert(&m, &log, types[i], 0, NULL, 5, iso), GRAZE_OK);
+        assert_int_equal(log.errors + log.warnings, 0);
+        assert_int_equal(m.kind, i ? GRAZE_METAL : GRAZE_PLASTIC);
+        assert_int_equal(m.model, GRAZE_BRDF_GMD);
+        assert_rgb(m.color, 0.1, 0.2, 0.3, 0);
+        assert_true(m.specularity == 0.4 && m.roughness_u == 0.05 && m.roughness_v == 0.05);
+        assert_false(m.has_orientation);
+    }
+}
+
+static void anisotropic_types_are_read(void **state) {
+    (void)state;
+    const rad_type types[] = {RAD_PLASTIC2, RAD_METAL2};
+    for (int i = 0; i < 2; i++) {
+        graze_material m;
+        log_of_report log;
+        assert_int_equal(convert(&m, &log, types[i], 4, plain, 6, aniso), GRAZE_OK);
+        assert_int_equal(log.errors + log.warnings, 0);
+        assert_int_equal(m.kind, i ? GRAZE_METAL : GRAZE_PLASTIC);
+        assert_int_equal(m.model, GRAZE_BRDF_GMD);
+        assert_rgb(m.color, 0.1, 0.2, 0.3, 0);
+        assert_true(m.specularity == 0.4 && m.roughness_u == 0.05 && m.roughness_v == 0.15);
+        assert_true(m.has_orientation);
+        assert_true(m.orientation.x == 1 && m.orientation.y == -0.5 && m.orientation.z == 0.25);
+    }
+}
+
+static void the_transform_turns_the_orientation(void **state) {
+    (void)state;
+    const char *const strings[] = {"1", "0", "0", ".", "-t", "10", "20", "30", "-rz", "90", "-rz", "-60"};
+    graze_material m;
+    log_of_report log;
+    assert_int_equal(convert(&m, &log, RAD_METAL2, 12, strings, 6, aniso), GRAZE_OK);
+    vec3 u = vec3_normalize(m.orientation);
+    assert_true(fabs(u.x - sqrt(0.75)) < 1e-15 && fabs(u.y - 0.5) < 1e-15 && fabs(u.z) < 1e-15);
+}
+
+static void words_that_are_no_transform_are_refused(void **state) {
+    (void)state;
+    const char *const strings[] = {"1", "0", "0", ".", "-rz", "90", "sideways"};
+    assert_refused(RAD_METAL2, 7, strings, 6, aniso, "sideways");
+}
+
+static void the_function_language_is_refused(void **state) {
+    (void)state;
+    const char *const words[][4] = {{"Nx", "0", "1", "."},  {"1", "1+1", "1", "."},      {"1", "0", "", "."},
+                                    {"1", "0", "nan", "."}, {"1", "0", "0", "wood.cal"}, {"1", "0", "0", ""}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        assert_refused(RAD_PLASTIC2, 4, words[i], 6, aniso,
+                       "needs the function language, which this version does not read yet");
+}
+
+static void wrong_counts_are_refused(void **state) {
+    (void)state;
+    const double seven[7] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+    for (uint32_t n = 0; n <= 7; n++) {
+        if (n != 5)
+            assert_refused(RAD_PLASTIC, 0, NULL, n, seven, "needs 5 real arguments");
+        if (n != 6)
+            assert_refused(RAD_METAL2, 4, plain, n, seven, "needs 6 real arguments");
+        if (n < 4)
+            assert_refused(RAD_METAL2, n, plain, 6, aniso, "needs at least 4 string arguments");
+    }
+}
+
+static void negative_arguments_are_refused(void **state) {
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        double reals[] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+        char why[40];
+        snprintf(why, sizeof why, "argument %d is negative", i + 1);
+        reals[i] = -1e-9;
+        if (i < 5)
+            assert_refused(RAD_METAL, 0, NULL, 5, reals, why);
+        assert_refused(RAD_PLASTIC2, 4, plain, 6, reals, why);
+    }
+}
+
+static void roughness_out_of_its_range_is_refused(void **state) {
+    (void)state;
+    const double rough[] = {0.1, 0.1, 0.1, 0.1, 10.5, 10.5};
+    assert_refused(RAD_METAL, 0, NULL, 5, rough, "roughness 10.5 is above 10");
+    assert_refused(RAD_METAL2, 4, plain, 6, rough, "roughness 10.5 is above 10");
+    for (int i = 4; i < 6; i++) {
+        double smooth[] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+        smooth[i] = 1e-6;
+        assert_refused(RAD_METAL2, 4, plain, 6, smooth, "roughness too small");
+        graze_material m;
+        log_of_report log;
+        smooth[i] = 1.000001e-6;
+        assert_int_equal(convert(&m, &log, RAD_METAL2, 4, plain, 6, smooth), GRAZE_OK);
+    }
+}
+
+static void unphysical_values_are_taken_with_a_warning(void **state) {
+    (void)state;
+    const double bright[] = {0.1, 0.1, 1.2, 0.1, 0.1}, shiny[] = {0.1, 0.1, 0.1, 1.5, 0.1}, white[] = {1, 1, 1, 1, 10};
+    graze_material m;
+    log_of_report log;
+    assert_int_equal(convert(&m, &log, RAD_PLASTIC, 0, NULL, 5, bright), GRAZE_OK);
+    assert_true(log.warnings == 1 && m.color.b == 1.2);
+    assert_non_null(strstr(log.text, "unphysical: a colour"));
+    assert_int_equal(convert(&m, &log, RAD_METAL, 0, NULL, 5, shiny), GRAZE_OK);
+    assert_true(log.warnings == 1 && m.specularity == 1.5);
+    assert_non_null(strstr(log.text, "unphysical: a specularity"));
+    assert_int_equal(convert(&m, &log, RAD_PLASTIC, 0, NULL, 5, white), GRAZE_OK);
+    assert_int_equal(log.warnings, 0);
+}
+
+static void idle_strings_of_isotropic_types_are_warned_of(void **state) {
+    (void)state;
+    graze_material m;
+    log_of_report log;
+    assert_int_equal(convert(&m, &log, RAD_PLASTIC, 4, plain, 5, iso), GRAZE_OK);
+    assert_int_equal(log.warnings, 1);
+}
+
+static void other_materials_are_not_supported_yet(void **state) {
+    (void)state;
+    const double glass[] = {0.9, 0.9, 0.9};
+    assert_refused(RAD_GLASS, 0, NULL, 3, glass, "glass is not supported yet");
+    assert_refused(RAD_TRANS2, 4, plain, 6, aniso, "trans2 is not supported yet");
+}
+
+static void a_missing_report_changes_nothing(void **state) {
+    (void)state;
+    graze_material m;
+    rad_primitive p = {.type = RAD_GLASS, .modifier = RAD_VOID, .id = "skin", .where = &where};
+    assert_int_equal(material_from_primitive(&m, &p, NULL), GRAZE_INPUT_ERROR);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(isotropic_types_are_read),
+        cmocka_unit_test(anisotropic_types_are_read),
+        cmocka_unit_test(the_transform_turns_the_orientation),
+        cmocka_unit_test(words_that_are_no_transform_are_refused),
+        cmocka_unit_test(the_function_language_is_refused),
+        cmocka_unit_test(wrong_counts_are_refused),
+        cmocka_unit_test(negative_arguments_are_refused),
+        cmocka_unit_test(roughness_out_of_its_range_is_refused),
+        cmocka_unit_test(unphysical_values_are_taken_with_a_warning),
+        cmocka_unit_test(idle_strings_of_isotropic_types_are_warned_of),
+        cmocka_unit_test(other_materials_are_not_supported_yet),
+        cmocka_unit_test(a_missing_report_changes_nothing),
+    };
+    return cmocka_run_group_tests_name("material/from_primitive", tests, NULL, NULL);
+}

@@ -1,0 +1,111 @@
+/* Loading scenes: what is accepted, and what is refused with which words. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "scene/scene.h"
+#include "support/scene_text.h"
+
+static void assert_refused(const char *text, const char *place_and_name, const char *reason) {
+    graze_scene *scene = scene_from_text(text);
+    graze_scene_destroy(scene);
+    if (scene || !strstr(scene_messages, place_and_name) || !strstr(scene_messages, reason))
+        fail_msg("%s\nwanted '%s' and '%s', got: %s", text, place_and_name, reason,
+                 scene ? "no error" : scene_messages);
+}
+
+static void unsupported_types_are_refused_by_name(void **state) {
+    (void)state;
+    assert_refused("\nvoid glass pane 0 0 3 1 1 1\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: glass pane", "not supported");
+    assert_refused("void dielectric d 0 0 5 1 1 1 1.5 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: dielectric d",
+                   "not supported");
+    assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
+    assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
+                   "not supported");
+    assert_refused("void brightfunc p 2 noise . 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
+                   ":1:1: brightfunc p", "not supported");
+    assert_refused("void plastic2 m 4 Nx Ny Nz . 0 6 1 1 1 .1 .1 .1 m sphere s 0 0 4 0 0 0 1\n", ":1:1: plastic2 m",
+                   "function");
+}
+
+static void surfaces_need_a_material(void **state) {
+    (void)state;
+    assert_refused("void sphere s 0 0 4 0 0 0 1\n", ":1:1: sphere s", "no material");
+}
+
+static void lights_are_checked(void **state) {
+    (void)state;
+    assert_refused("void light l 0 0 3 1 -1 1 l sphere s 0 0 4 0 0 0 1\n", "light l", "negative");
+    assert_refused("void spotlight l 0 0 7 1 1 1 0 0 0 1 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "angle");
+    assert_refused("void spotlight l 0 0 7 1 1 1 10 0 0 0 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "null");
+    assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 0 1\n", "source s", "direction");
+    assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 0\n", "source s", "angle");
+}
+
+static void all_mistakes_are_told_at_once(void **state) {
+    (void)state;
+    const char *text =
+        "void glass a 0 0 3 1 1 1 a sphere s 0 0 4 0 0 0 1\nvoid mirror b 0 0 3 1 1 1 b sphere t 0 0 4 0 0 0 1\n";
+    assert_refused(text, "glass a", "mirror b");
+}
+
+static void unused_modifiers_do_no_harm(void **state) {
+    (void)state;
+    graze_scene *scene =
+        scene_from_text("void glass a 0 0 3 1 1 1\nvoid plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n");
+    assert_non_null(scene);
+    assert_int_equal(scene->surface_count, 1);
+    assert_int_equal(scene->material_count, 1);
+    assert_int_equal(scene->light_count, 0);
+    graze_scene_destroy(scene);
+}
+
+static void sources_come_last_and_lights_before_glows(void **state) {
+    (void)state;
+    graze_scene *scene =
+        scene_from_text("void glow g 0 0 4 1 1 1 0 g source sky 0 0 4 0 0 1 180\nvoid light l 0 0 3 1 1 1\n"
+                        "l source sun 0 0 4 0 0 1 .5 l sphere lamp 0 0 4 0 0 0 1\n"
+                        "void light dark 0 0 3 0 0 0 dark sphere none 0 0 4 0 0 9 1\n");
+    assert_non_null(scene);
+    assert_int_equal(scene->light_count, 3);
+    assert_int_equal(scene->first_source, 1);
+    assert_string_equal(scene_name(scene, scene->lights[0].primitive), "lamp");
+    assert_string_equal(scene_name(scene, scene->lights[1].primitive), "sun");
+    assert_string_equal(scene_name(scene, scene->lights[2].primitive), "sky");
+    assert_int_equal(scene->surfaces[1].light, -1);
+    graze_scene_destroy(scene);
+}
+
+static void a_surface_across_its_orientation_is_warned_about(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text("void metal2 m 4 0 0 1 . 0 6 1 1 1 .5 .1 .2\n"
+                                         "m ring r 0 0 8 0 0 0 0 0 1 0 1 m ring s 0 0 8 0 0 0 0 1 0 0 1\n");
+    assert_non_null(scene);
+    assert_non_null(strstr(scene_messages, ":2:1: ring r"));
+    assert_null(strstr(scene_messages, "ring s"));
+    graze_scene_destroy(scene);
+}
+
+static void an_empty_scene_is_a_scene(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text("# nothing here\n");
+    assert_non_null(scene);
+    graze_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unsupported_types_are_refused_by_name),
+        cmocka_unit_test(surfaces_need_a_material),
+        cmocka_unit_test(lights_are_checked),
+        cmocka_unit_test(all_mistakes_are_told_at_once),
+        cmocka_unit_test(unused_modifiers_do_no_harm),
+        cmocka_unit_test(sources_come_last_and_lights_before_glows),
+        cmocka_unit_test(a_surface_across_its_orientation_is_warned_about),
+        cmocka_unit_test(an_empty_scene_is_a_scene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
