@@ -66,7 +66,7 @@ typedef struct graze_hit {
     double distance;           /* GRAZE_FAR: nothing, or a source infinitely far away */
     graze_vec3 point;          /* on the surface; the origin where nothing was hit */
     graze_vec3 normal;         /* unit, on the surface's own front; null vector where nothing was hit */
-    graze_vec3 shading_normal; /* the same, perturbed by textures, on the side of the ray */
+    graze_vec3 shading_normal; /* the same, perturbed by textures; on the ray's side unless the surface shines */
 } graze_hit;
 
 typedef struct graze_answer {

@@ -81,8 +81,8 @@ static void add_cone_crossing(shape_crossings *found, const shape *s, const cone
         add_crossing(found, t);
 }
 
-/* |across part of (o + t d)| = r0 + growth * along part of (o + t d), squared: A t^2 + 2 B t + C = 0. Where the radius is
- * positive, as it is between the ends, the squared equation has no further solutions. */
+/* |across part of (o + t d)| = r0 + growth * along part of (o + t d), squared: A t^2 + 2 B t + C = 0. Where the radius
+ * is positive, as it is between the ends, the squared equation has no further solutions. */
 static shape_crossings cross_cone(const shape *s, vec3 origin, vec3 direction, bool leaves) {
     shape_crossings found = {0};
     cone_line line = cone_line_make(s, origin, direction);

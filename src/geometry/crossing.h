@@ -9,9 +9,9 @@ typedef struct shape_crossings {
     double distance[2]; /* ascending; of either sign */
 } shape_crossings;
 
-/* All crossings of a sphere, cone or ring with the line through `origin` along the unit vector `direction`. Where the line
- * `leaves` the shape, whose point the origin is, that crossing is left out: it is not looked for near zero but divided
- * out of the equation, so that a second one is found however close it lies. */
+/* All crossings of a sphere, cone or ring with the line through `origin` along the unit vector `direction`. Where the
+ * line `leaves` the shape, whose point the origin is, that crossing is left out: it is not looked for near zero but
+ * divided out of the equation, so that a second one is found however close it lies. */
 shape_crossings shape_cross(const shape *, vec3 origin, vec3 direction, bool leaves);
 
 #endif

@@ -13,7 +13,9 @@
 
 typedef struct RTCRayQueryContext embree_context;
 
-static inline void embree_context_init(embree_context *context) { rtcInitRayQueryContext(context); }
+static inline void embree_context_init(embree_context *context) {
+    rtcInitRayQueryContext(context);
+}
 
 static inline void embree_intersect(RTCScene scene, embree_context *context, struct RTCRayHit *ray) {
     struct RTCIntersectArguments arguments;
@@ -33,7 +35,9 @@ static inline void embree_occluded(RTCScene scene, embree_context *context, stru
 
 typedef struct RTCIntersectContext embree_context;
 
-static inline void embree_context_init(embree_context *context) { rtcInitIntersectContext(context); }
+static inline void embree_context_init(embree_context *context) {
+    rtcInitIntersectContext(context);
+}
 
 static inline void embree_intersect(RTCScene scene, embree_context *context, struct RTCRayHit *ray) {
     rtcIntersect1(scene, context, ray);
@@ -46,7 +50,11 @@ static inline void embree_occluded(RTCScene scene, embree_context *context, stru
 #endif
 
 /* A callback's ray and hit: those of a single ray lie as RTCRay and RTCHit do. */
-static inline struct RTCRay *embree_ray(void *ray) { return ray; }
-static inline const struct RTCHit *embree_hit(const void *hit) { return hit; }
+static inline struct RTCRay *embree_ray(void *ray) {
+    return ray;
+}
+static inline const struct RTCHit *embree_hit(const void *hit) {
+    return hit;
+}
 
 #endif

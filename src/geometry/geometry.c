@@ -8,7 +8,8 @@
 
 #include "geometry/geometry_internal.h"
 
-/* With fewer primitives than this, threads take longer to start than to help, and careful building longer than it saves. */
+/* With fewer primitives than this, threads take longer to start than to help, and careful building longer than it
+ * saves. */
 #define LARGE_SCENE 20000
 
 /* The first trouble that Embree told of. */
@@ -71,14 +72,21 @@ static double triangle_border(double height) {
     return fmin(fmax(height / 64, GEOMETRY_BORDER_LEAST), GEOMETRY_BORDER);
 }
 
+/* The farthest corner's distance from the scene's middle, in Embree's units. */
+static double triangle_reach(const geometry *g, const geometry_triangle *triangle) {
+    double reach = 0;
+    for (int i = 0; i < 3; i++)
+        reach = fmax(reach, g->scale * vec3_length(vec3_subtract(geometry_corner(g, triangle, i), g->center)));
+    return reach;
+}
+
 static void set_tolerances(const geometry *g, geometry_triangle *triangle) {
     vec3 normal;
-    double height = triangle_height(g, triangle, &normal);
-    double error = GEOMETRY_FLOAT_ERROR + triangle_border(height);
+    double height = triangle_height(g, triangle, &normal), border = triangle_border(height);
     /* Where the polygon is not flat, its normal does not tell how obliquely the triangle is met. */
     bool flat = vec3_length(vec3_cross(normal, triangle->normal)) < 1e-6 * vec3_length(normal);
-    triangle->error = (float)error;
-    triangle->margin = flat ? (float)(error / height) : INFINITY;
+    triangle->error = (float)(GEOMETRY_UNIT_ERROR * triangle_reach(g, triangle) + border);
+    triangle->margin = flat ? (float)((GEOMETRY_FLOAT_ERROR + border) / height) : INFINITY;
 }
 
 static void collect_polygon(const geometry *g, int surface, geometry_triangle *triangle) {
@@ -216,7 +224,8 @@ static graze_status build_scene(geometry *g, int threads, const graze_report *re
     return t.code == RTC_ERROR_NONE ? GRAZE_OK : report_trouble(&t, report);
 }
 
-graze_status geometry_build(geometry **made, const shape *shapes, size_t count, int threads, const graze_report *report) {
+graze_status geometry_build(geometry **made, const shape *shapes, size_t count, int threads,
+                            const graze_report *report) {
     *made = NULL;
     geometry *g = calloc(1, sizeof *g);
     if (!g)

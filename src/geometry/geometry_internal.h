@@ -5,14 +5,18 @@
 #include "geometry/embree.h"
 #include "geometry/geometry.h"
 
-/* Embree works in single precision, on a scene moved and scaled into the unit ball. Corners and a ray's origin are wrong by
- * up to sqrt(3) 2^-25 each, its far end by twice that, and the test of a triangle adds about as much again: against each
- * other they are displaced by no more than this. */
+/* Embree works in single precision, on a scene moved and scaled into the unit ball. Per unit of their coordinates,
+ * corners and a ray's origin are wrong by up to sqrt(3) 2^-25 each, and per unit of its length the ray by as much
+ * again; the test of a triangle adds twice that. So where a ray of length t meets a triangle at a distance r from the
+ * middle, they are displaced against each other by less than (r + t) times this. */
+#define GEOMETRY_UNIT_ERROR 0x1p-22
+/* And this is a bound for all of them. */
 #define GEOMETRY_FLOAT_ERROR 0x1p-20
-/* By so much are Embree's triangles larger on all sides than the true ones; less, but no less than the least, where they
- * are small. Hardly any ray then misses one that it should meet, and an exact test sorts out the others. Between
+
+/* By so much are Embree's triangles larger on all sides than the true ones; less, but no less than the least, where
+ * they are small. Hardly any ray then misses one that it should meet, and an exact test sorts out the others. Between
  * neighbours that overlap by too little, and lie above one another by a rounding, oblique rays would slip through. */
-#define GEOMETRY_BORDER 0x1p-18
+#define GEOMETRY_BORDER       0x1p-18
 #define GEOMETRY_BORDER_LEAST 0x1p-22
 
 /* What the exact test of a triangle begins with, in one cache line. */
@@ -23,7 +27,7 @@ typedef struct geometry_triangle {
     /* A hit is certain in spite of single precision where its least barycentric coordinate, times the cosine at which
      * the ray meets the triangle, is above this. */
     float margin;
-    float error; /* how far from the true triangle Embree may take it to be met, in its units */
+    float error; /* how far from the true triangle Embree may take it to be met close by, in its units */
 } geometry_triangle;
 
 struct geometry {
@@ -32,9 +36,9 @@ struct geometry {
     RTCScene scene;
     vec3 lower, upper;
     vec3 center;
-    double radius; /* around the center; holds all */
-    double scale;  /* a power of two that makes the radius at most 1 */
-    double near;   /* crossings at most this far from a ray's origin are at its origin */
+    double radius;                /* around the center; holds all */
+    double scale;                 /* a power of two that makes the radius at most 1 */
+    double near;                  /* crossings at most this far from a ray's origin are at its origin */
     geometry_triangle *triangles; /* by Embree's primitive numbers; aligned to cache lines */
     size_t triangle_count;
     int *curved; /* the surfaces that are no polygons, by Embree's primitive numbers */

@@ -6,12 +6,11 @@
 #include "geometry/geometry_internal.h"
 
 /* Embree finds candidates in single precision; which of them the ray meets, and where, is decided here in double
- * precision alone. A triangle is met where the true line passes on the inner side of its three edges, after Woop, Benthin
- * and Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013: corners are laid
- * into a plane that the line is perpendicular to, each by itself, and then
- * no sign is wrong. So no line slips through
- * between triangles that share their corners. What single precision may mistake is then only which candidates there are,
- * near edges; see trace(). */
+ * precision alone. A triangle is met where the true line passes on the inner side of its three edges, after Woop,
+ * Benthin and Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013: corners
+ * are laid into a plane that the line is perpendicular to, each by itself, and then no sign is wrong. So no line slips
+ * through between triangles that share their corners. What single precision may mistake is then only which candidates
+ * there are, near edges; see trace(). */
 
 /* Places on a ray where Embree has been wrong about a triangle; more of them are very unlikely. */
 #define MISSES 16
@@ -19,8 +18,8 @@
 /* By so many errors of single precision Embree's rays are longer at both ends. */
 #define ENDS 64
 
-/* A surface goes through a point where it is no farther from it than this times the scene's coordinates: the roundings of
- * a point computed on it. */
+/* A surface goes through a point where it is no farther from it than this times the scene's coordinates: the roundings
+ * of a point computed on it. */
 #define ON_SURFACE (16 * DBL_EPSILON)
 /* Sine of the angle up to which two surfaces lie on one another. */
 #define PARALLEL 1e-6
@@ -46,8 +45,8 @@ typedef struct query {
     int from, target;
     bool any; /* whether there is a crossing is all that is asked */
     bool found_any;
-    double start;     /* distance along the ray of Embree's origin: where it enters the scene, a little before */
-    double end;       /* and where it leaves the scene or comes to its own end, a little behind */
+    double start; /* distance along the ray of Embree's origin: where it enters the scene, a little before */
+    double end;   /* and where it leaves the scene or comes to its own end, a little behind */
     candidate nearest, nearest_front;
     float limit; /* Embree's distance beyond which nothing matters */
     miss misses[MISSES];
@@ -56,10 +55,12 @@ typedef struct query {
 } query;
 
 /* The bound of single precision's errors, as a length of the scene. */
-static double float_error(const query *q) { return GEOMETRY_FLOAT_ERROR / q->geometry->scale; }
+static double float_error(const query *q) {
+    return GEOMETRY_FLOAT_ERROR / q->geometry->scale;
+}
 
-/* Embree's own distance at which to stop looking when a surface is met at `t`, under a cosine of `slope`: behind what it
- * takes for the distance of surfaces that coincide with this one. */
+/* Embree's own distance at which to stop looking when a surface is met at `t`, under a cosine of `slope`: behind what
+ * it takes for the distance of surfaces that coincide with this one. */
 static float embree_limit(const query *q, double t, double slope) {
     double limit = t + float_error(q) / fabs(slope) + q->geometry->near;
     return (float)(((limit < q->end ? limit : q->end) - q->start) * q->geometry->scale);
@@ -69,7 +70,8 @@ static bool is_before(const candidate *a, const candidate *b) {
     return a->distance < b->distance || (a->distance == b->distance && a->surface > b->surface);
 }
 
-/* Takes a crossing into account, `slope` being the cosine between ray and normal; true where that shortens the search. */
+/* Takes a crossing into account, `slope` being the cosine between ray and normal; true where that shortens the search.
+ */
 static bool offer(query *q, candidate c, double slope) {
     if (q->any) {
         q->found_any = true;
@@ -84,9 +86,9 @@ static bool offer(query *q, candidate c, double slope) {
     return true;
 }
 
-/* Whether a crossing close to the ray's origin is at its origin. `slope`: cosine between the ray and the normal there. A
- * surface that the origin lies on is not hit, and within Radiance's distance neither is one that lies on the surface that
- * the ray leaves. But others that meet it at an angle are. */
+/* Whether a crossing close to the ray's origin is at its origin. `slope`: cosine between the ray and the normal there.
+ * A surface that the origin lies on is not hit, and within Radiance's distance neither is one that lies on the surface
+ * that the ray leaves. But others that meet it at an angle are. */
 static bool is_at_origin(const query *q, double distance, double slope, vec3 normal) {
     const geometry *g = q->geometry;
     if (q->from < 0 || distance * fabs(slope) <= ON_SURFACE * (vec3_max_abs(g->center) + g->radius))
@@ -144,8 +146,10 @@ static bool offer_met(query *q, const geometry_triangle *triangle, double slope)
 }
 
 static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
-    double error = triangle->error / q->geometry->scale;
+    double error = triangle->error / q->geometry->scale + GEOMETRY_UNIT_ERROR * (distance - q->start);
     miss m = {distance, error, error / fmax(fabs(slope), DBL_EPSILON)};
+    if (distance + m.reach <= 0)
+        return;
     for (int i = 0; i < q->miss_count; i++)
         if (fabs(distance - q->misses[i].distance) <= error && m.reach <= 1.1 * q->misses[i].reach)
             return;
@@ -241,9 +245,14 @@ static vec3 embree_place(const query *q, double distance) {
 static void cast(query *q) {
     const geometry *g = q->geometry;
     vec3 o = embree_place(q, q->start);
-    struct RTCRay ray = {.org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z,
-                         .dir_x = (float)q->direction.x, .dir_y = (float)q->direction.y, .dir_z = (float)q->direction.z,
-                         .tfar = q->limit, .mask = UINT32_MAX};
+    struct RTCRay ray = {.org_x = (float)o.x,
+                         .org_y = (float)o.y,
+                         .org_z = (float)o.z,
+                         .dir_x = (float)q->direction.x,
+                         .dir_y = (float)q->direction.y,
+                         .dir_z = (float)q->direction.z,
+                         .tfar = q->limit,
+                         .mask = UINT32_MAX};
     if (q->any) {
         embree_occluded(g->scene, &q->context, &ray);
     } else {
@@ -256,7 +265,9 @@ static void cast(query *q) {
 static void look_around(query *q) {
     const geometry *g = q->geometry;
     vec3 center = embree_place(q, q->around->distance);
-    struct RTCPointQuery around = {.x = (float)center.x, .y = (float)center.y, .z = (float)center.z,
+    struct RTCPointQuery around = {.x = (float)center.x,
+                                   .y = (float)center.y,
+                                   .z = (float)center.z,
                                    .radius = (float)fmin(2 * q->around->reach * g->scale, 4)};
     struct RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -281,10 +292,11 @@ static bool clip(query *q) {
     return q->start <= q->end;
 }
 
-/* Follows the ray. Where Embree took it through a triangle that it passes by, single precision has been too coarse to tell
- * two neighbours apart, and the right one may have been overlooked. Where nothing else is known to stop the ray there or
- * before, it is then looked for among all triangles about that place. One of those that is almost parallel to the ray
- * may lead to the right one farther away: that is another miss, of larger reach. All are tested against the true ray. */
+/* Follows the ray. Where Embree took it through a triangle that it passes by, single precision has been too coarse to
+ * tell two neighbours apart, and the right one may have been overlooked. Where nothing else is known to stop the ray
+ * there or before, it is then looked for among all triangles about that place. One of those that is almost parallel to
+ * the ray may lead to the right one farther away: that is another miss, of larger reach. All are tested against the
+ * true ray. */
 static void trace(query *q) {
     embree_context_init(&q->context);
     q->nearest = q->nearest_front = (candidate){INFINITY, -1, NULL};
@@ -306,7 +318,11 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
     hit->surface = -1;
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g, .origin = ray->origin, .direction = ray->direction, .far = ray->far, .from = ray->from,
+    query q = {.geometry = g,
+               .origin = ray->origin,
+               .direction = ray->direction,
+               .far = ray->far,
+               .from = ray->from,
                .target = -1};
     if (!clip(&q))
         return false;
@@ -336,8 +352,13 @@ bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
     if (!g->scene || !is_ray(ray))
         return false;
     /* What coincides with the ray's end does not lie before it. */
-    query q = {.geometry = g, .origin = ray->origin, .direction = ray->direction, .far = ray->far - g->near,
-               .from = ray->from, .target = target, .any = true};
+    query q = {.geometry = g,
+               .origin = ray->origin,
+               .direction = ray->direction,
+               .far = ray->far - g->near,
+               .from = ray->from,
+               .target = target,
+               .any = true};
     if (!clip(&q))
         return false;
     trace(&q);

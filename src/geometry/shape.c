@@ -13,7 +13,9 @@
 /* Squares of areas must fit into a double. */
 #define LARGEST_COORDINATE 1e70
 
-static vec3 real3(const double *reals) { return vec3_make(reals[0], reals[1], reals[2]); }
+static vec3 real3(const double *reals) {
+    return vec3_make(reals[0], reals[1], reals[2]);
+}
 
 static graze_status check_reals(const rad_primitive *p, uint32_t count, const graze_report *report) {
     if (p->real_count != count)
@@ -68,14 +70,15 @@ static bool is_planar(const shape *s) {
 
 static double triangle_area(const shape *s, const uint32_t *corner) {
     const vec3 *v = s->polygon.vertices;
-    return 0.5 * vec3_length(vec3_cross(vec3_subtract(v[corner[1]], v[corner[0]]),
-                                        vec3_subtract(v[corner[2]], v[corner[0]])));
+    return 0.5 * vec3_length(
+                     vec3_cross(vec3_subtract(v[corner[1]], v[corner[0]]), vec3_subtract(v[corner[2]], v[corner[0]])));
 }
 
 static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive *p, arena *memory,
                                  const graze_report *report) {
     if (p->real_count < 9 || p->real_count % 3)
-        return rad_primitive_error(report, p, "%u real arguments where three for each of three or more vertices are needed",
+        return rad_primitive_error(report, p,
+                                   "%u real arguments where three for each of three or more vertices are needed",
                                    (unsigned)p->real_count);
     graze_status status = check_reals(p, p->real_count, report);
     if (status)
@@ -140,7 +143,9 @@ static vec3 safe_unit(vec3 a) {
     return scale > 0 ? vec3_normalize(vec3_scale(1 / scale, a)) : a;
 }
 
-static int radius_sign(double radius) { return (radius > TINY_RADIUS) - (radius < -TINY_RADIUS); }
+static int radius_sign(double radius) {
+    return (radius > TINY_RADIUS) - (radius < -TINY_RADIUS);
+}
 
 static graze_status make_cone(shape *s, bool *degenerate, const rad_primitive *p, const graze_report *report) {
     bool cylinder = p->type == RAD_CYLINDER || p->type == RAD_TUBE;
@@ -308,8 +313,7 @@ vec3 shape_pull(const shape *s, vec3 point) {
     case SHAPE_RING:
         return pull_to_plane(point, s->ring.center, s->ring.normal);
     case SHAPE_SPHERE:
-        return vec3_add_scaled(s->sphere.center, s->sphere.radius,
-                               safe_unit(vec3_subtract(point, s->sphere.center)));
+        return vec3_add_scaled(s->sphere.center, s->sphere.radius, safe_unit(vec3_subtract(point, s->sphere.center)));
     case SHAPE_CONE:
         return pull_to_cone(s, point);
     }

@@ -1,8 +1,8 @@
 /* Polygons cut into triangles; concave ones and those with holes by GLU's tessellator. */
 #include "geometry/tessellate.h"
 
-#include <GL/glu.h>
 #include <dlfcn.h>
+#include <GL/glu.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 /* Sine of the angle below which two edges count as one straight line, and area, in squares of the polygon's extent,
  * below which a triangle counts as none: some roundings of double precision. */
 #define STRAIGHT 1e-12
-#define NO_AREA 1e-14
+#define NO_AREA  1e-14
 
 typedef struct point2 {
     double x, y;
@@ -20,10 +20,10 @@ typedef struct point2 {
 typedef struct outline {
     const shape *polygon;
     frame axes;
-    double extent;      /* largest coordinate among the points */
-    uint32_t count;     /* vertices that differ from the one before them */
-    uint32_t *index;    /* of the shape's vertices */
-    point2 *points;     /* one for each index */
+    double extent;   /* largest coordinate among the points */
+    uint32_t count;  /* vertices that differ from the one before them */
+    uint32_t *index; /* of the shape's vertices */
+    point2 *points;  /* one for each index */
 } outline;
 
 /* Triangles and the vertices beyond the outline's, as they come. */
@@ -39,9 +39,15 @@ typedef struct mesh {
     GLenum error;
 } mesh;
 
-static inline double cross2(point2 a, point2 b) { return a.x * b.y - a.y * b.x; }
-static inline double dot2(point2 a, point2 b) { return a.x * b.x + a.y * b.y; }
-static inline point2 subtract2(point2 a, point2 b) { return (point2){a.x - b.x, a.y - b.y}; }
+static inline double cross2(point2 a, point2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+static inline double dot2(point2 a, point2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+static inline point2 subtract2(point2 a, point2 b) {
+    return (point2){a.x - b.x, a.y - b.y};
+}
 
 static point2 flatten(const outline *o, vec3 vertex) {
     vec3 v = vec3_subtract(vertex, o->polygon->polygon.vertices[0]);
@@ -225,8 +231,12 @@ static void glu_open(void) {
 }
 
 /* GLU carries a vertex as a pointer: its index and one, so that it is never null. */
-static void *glu_carry(uint32_t index) { return (void *)((uintptr_t)index + 1); }
-static uint32_t glu_carried(const void *data) { return (uint32_t)((uintptr_t)data - 1); }
+static void *glu_carry(uint32_t index) {
+    return (void *)((uintptr_t)index + 1);
+}
+static uint32_t glu_carried(const void *data) {
+    return (uint32_t)((uintptr_t)data - 1);
+}
 
 static void GLAPIENTRY glu_on_vertex(void *data, void *user) {
     mesh *m = user;
@@ -248,8 +258,8 @@ static void GLAPIENTRY glu_on_error(GLenum error, void *user) {
     m->error = error;
 }
 
-/* Where the edges between the first two and the last two of four vertices cross; GLU's own answer, `rough`, is in single
- * precision. */
+/* Where the edges between the first two and the last two of four vertices cross; GLU's own answer, `rough`, is in
+ * single precision. */
 static point2 cross_edges(const mesh *m, void *const data[4], point2 rough) {
     point2 p[4];
     for (int i = 0; i < 4; i++) {
@@ -265,7 +275,8 @@ static point2 cross_edges(const mesh *m, void *const data[4], point2 rough) {
 }
 
 /* Vertices that fall together are one; an outline that crosses itself gets a new one there. */
-static void GLAPIENTRY glu_on_combine(GLdouble coordinates[3], void *data[4], GLfloat weight[4], void **made, void *user) {
+static void GLAPIENTRY glu_on_combine(GLdouble coordinates[3], void *data[4], GLfloat weight[4], void **made,
+                                      void *user) {
     mesh *m = user;
     (void)weight;
     for (int i = 0; i < 4; i++) {

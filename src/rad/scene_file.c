@@ -144,6 +144,7 @@ static graze_status take(void *user, rad_raw *raw) {
     rad_primitive primitive = {
         .type = raw->type < RAD_TYPE_COUNT ? (rad_type)raw->type : RAD_TYPE_COUNT,
         .id = raw->id,
+        .original_id = raw->id,
         .string_count = raw->string_count,
         .real_count = raw->real_count,
         .strings = raw->strings,

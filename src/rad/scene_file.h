@@ -80,6 +80,7 @@ typedef struct rad_primitive {
     rad_type type;
     int32_t modifier; /* index of the primitive that modifies this one, always smaller than its own; or RAD_VOID */
     const char *id;
+    const char *original_id; /* of an alias: the id of what it stands for in the end; else the same as `id` */
     uint32_t string_count, real_count;
     const char *const *strings;
     const double *reals;

@@ -17,6 +17,7 @@ static graze_status read_spot(scene_light *light, const rad_primitive *material,
         return rad_primitive_error(report, material, "the aim vector is null");
     light->spot = true;
     light->spot_axis = vec3_normalize(aim);
+    light->spot_focus = vec3_length(aim);
     light->spot_cosine = cos(angle_radians(cone / 2));
     return GRAZE_OK;
 }

@@ -20,6 +20,14 @@ rgb light_radiance(const scene_light *light, vec3 direction, vec3 normal) {
     return light->radiance;
 }
 
+rgb light_radiance_at(const scene_light *light, vec3 direction, vec3 normal, double distance) {
+    rgb radiance = light_radiance(light, direction, normal);
+    if (!light->spot)
+        return radiance;
+    double part = distance / (distance + light->spot_focus);
+    return rgb_scale(part * part, radiance);
+}
+
 /* 1 - cos of the angle between unit vectors is |a - b|^2 / 2: exact for the sun's small angles. */
 static bool source_contains(const scene_light *light, vec3 direction) {
     vec3 difference = vec3_subtract(direction, light->center);
@@ -121,7 +129,7 @@ static light_sample draw_shape(const scene_light *light, int index, vec3 point, 
     sample.direction = drawn.direction;
     sample.distance = drawn.distance;
     sample.density = drawn.density;
-    sample.radiance = light_radiance(light, drawn.direction, shape_normal(light->shape, hit));
+    sample.radiance = light_radiance_at(light, drawn.direction, shape_normal(light->shape, hit), drawn.distance);
     return sample;
 }
 

@@ -11,6 +11,10 @@ light_role light_role_at(const scene_light *, double distance);
  * `normal` (ignored for sources): black from behind and outside a spotlight's cone. */
 rgb light_radiance(const scene_light *, vec3 direction, vec3 normal);
 
+/* The same as it lights a point at `distance`. A spotlight's light diverges from its focus behind it: what arrives is
+ * weaker than the light is bright to the eye, by (distance / (distance + focus))^2. */
+rgb light_radiance_at(const scene_light *, vec3 direction, vec3 normal, double distance);
+
 /* The source that a ray in this direction meets when nothing else is in its way, or -1: the first `light` in the
  * scene's order, else the first `glow`. */
 int light_source_towards(const graze_scene *, vec3 direction);

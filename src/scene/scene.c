@@ -24,6 +24,11 @@ const char *scene_modifier_name(const graze_scene *scene, int primitive) {
     return modifier == RAD_VOID ? "void" : scene->primitives[modifier].id;
 }
 
+const char *scene_material_name(const graze_scene *scene, int primitive) {
+    int modifier = scene->primitives[primitive].modifier;
+    return modifier == RAD_VOID ? "void" : scene->primitives[modifier].original_id;
+}
+
 static void fail(builder *b, graze_status status) {
     if (status > b->status)
         b->status = status;

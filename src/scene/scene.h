@@ -38,6 +38,7 @@ typedef struct scene_light {
     bool spot;
     vec3 spot_axis;     /* unit, the way the light goes */
     double spot_cosine; /* of the half angle of the cone */
+    double spot_focus;  /* how far behind the light its cone begins */
     vec3 center;        /* of a sphere around the shape; for a source the unit direction towards it */
     double radius;      /* of that sphere */
     double half_angle;  /* of a source, radians */
@@ -65,8 +66,10 @@ struct graze_scene {
     geometry *geometry;
 };
 
-/* The name of the primitive with this index, or of its modifier ("void"). */
+/* The name of the surface with this index in the description, of its modifier, and of the material that this is or is
+ * an alias of ("void" where there is none). */
 const char *scene_name(const graze_scene *, int primitive);
 const char *scene_modifier_name(const graze_scene *, int primitive);
+const char *scene_material_name(const graze_scene *, int primitive);
 
 #endif

@@ -143,12 +143,9 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
 
 static void add_emission(path *p, const path_hit *hit) {
     const scene_light *light = &p->context->scene->lights[hit->light];
-    rgb radiance = light_radiance(light, hit->direction, hit->normal);
-    if (rgb_is_black(radiance))
-        return;
-    rgb throughput = p->throughput;
     light_role role = light_role_at(light, hit->distance);
-    if (role == LIGHT_NONE && p->scattered)
+    rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
+    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
         return;
     if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
         if (role == LIGHT_AMBIENT && !p->last.ambient)
@@ -156,6 +153,7 @@ static void add_emission(path *p, const path_hit *hit) {
         if (role == LIGHT_DIRECT)
             throughput = p->last.direct;
         throughput = rgb_scale(found_weight(p, hit, role), throughput);
+        radiance = light_radiance_at(light, hit->direction, hit->normal, hit->distance);
     } else if (role != LIGHT_AMBIENT && !p->context->settings->lights_visible) {
         return;
     }

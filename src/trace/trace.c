@@ -58,7 +58,8 @@ static void describe(const graze_scene *scene, const path_hit *found, graze_hit 
     if (found->surface >= 0) {
         primitive = scene->surfaces[found->surface].primitive;
         hit->normal = found->normal;
-        hit->shading_normal = found->behind ? vec3_negate(found->normal) : found->normal;
+        bool turned = found->behind && !scene->materials[scene->surfaces[found->surface].material].emits;
+        hit->shading_normal = turned ? vec3_negate(found->normal) : found->normal;
     } else if (found->light >= 0) {
         primitive = scene->lights[found->light].primitive;
         hit->normal = hit->shading_normal = vec3_negate(found->direction);
@@ -66,7 +67,8 @@ static void describe(const graze_scene *scene, const path_hit *found, graze_hit 
     if (primitive < 0)
         return;
     hit->surface = scene_name(scene, primitive);
-    hit->modifier = hit->material = scene_modifier_name(scene, primitive);
+    hit->modifier = scene_modifier_name(scene, primitive);
+    hit->material = scene_material_name(scene, primitive);
 }
 
 static const graze_hit nothing_hit = {.distance = GRAZE_FAR};

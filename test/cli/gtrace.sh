@@ -45,6 +45,9 @@ for i in $(seq 200); do echo "0 $((i % 7 - 3)) 1 .$i 1 -1"; done >rays
 # What is printed.
 check "names and lengths" test "$(printf "$down" | "$gtrace" -h -osmMLl room.rad)" = \
     "$(printf 'floor\tshiny\tshiny\t1.000000e+00\t1.000000e+00\t')"
+cat room.rad >alias.rad
+printf 'void alias other shiny\nother ring disk 0 0 8 5 5 1 0 0 1 0 1\n' >>alias.rad
+check "an alias's modifier and material" test "$(echo "5 5 2 0 0 -1" | "$gtrace" -h -osmM alias.rad)" = "$(printf 'disk\tother\tshiny\t')"
 check "nothing hit" test "$(echo "0 0 1 1 0 0" | "$gtrace" -h -osmLNp room.rad)" = \
     "$(printf '*\t*\t1.000000e+10\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t1.000000e+00\t')"
 check "a zero direction asks for an empty record" test "$(echo "1 2 3 0 0 0" | "$gtrace" -h -ovLs room.rad)" = \

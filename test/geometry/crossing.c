@@ -58,8 +58,8 @@ static shape roll_curved(dice *d, int kind, double scale, vec3 at) {
     }
 }
 
-/* Crossings agree with the oracle's in number and distance, and the points pulled onto the surface satisfy its equation,
- * for shapes from a millimetre to a kilometre, also far from the origin, and rays from near and far. */
+/* Crossings agree with the oracle's in number and distance, and the points pulled onto the surface satisfy its
+ * equation, for shapes from a millimetre to a kilometre, also far from the origin, and rays from near and far. */
 static void crossings_are_exact(void **state) {
     (void)state;
     dice d = {1};
@@ -121,8 +121,8 @@ static void leaving_divides_the_origin_out(void **state) {
         oracle_crossing expected[2];
         int n = oracle_crossings(&s, exact(point), exact(next), expected);
         if (n == 2) {
-            long double other = fabsl(expected[0].distance) > fabsl(expected[1].distance) ? expected[0].distance
-                                                                                         : expected[1].distance;
+            long double other =
+                fabsl(expected[0].distance) > fabsl(expected[1].distance) ? expected[0].distance : expected[1].distance;
             double cosine = fabs(vec3_dot(shape_normal(&s, point), next));
             /* A chord is 2 r cos; close to the tangent the origin's rounding counts for more and more of it. */
             if (cosine > 1e-9 && expected[0].margin > 1e-14 && expected[1].margin > 1e-14) {

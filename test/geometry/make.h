@@ -26,7 +26,9 @@ static inline double roll(dice *d) {
     return (double)(d->state * 0x2545F4914F6CDD1Du >> 11) * 0x1p-53;
 }
 
-static inline double roll_between(dice *d, double low, double high) { return low + (high - low) * roll(d); }
+static inline double roll_between(dice *d, double low, double high) {
+    return low + (high - low) * roll(d);
+}
 
 static inline vec3 roll_direction(dice *d) {
     double z = roll_between(d, -1, 1), phi = 2 * PI * roll(d), r = sqrt(1 - z * z);
@@ -53,10 +55,11 @@ static inline void messages_write(void *user, graze_severity severity, const cha
     strncpy(m->last, text, sizeof m->last - 1);
 }
 
-static inline graze_status try_shape(shape *s, bool *degenerate, messages *m, arena *memory, rad_type type, uint32_t count,
-                                     const double *reals) {
+static inline graze_status try_shape(shape *s, bool *degenerate, messages *m, arena *memory, rad_type type,
+                                     uint32_t count, const double *reals) {
     static const place where = {.file = "test.rad", .line = 1, .column = 1};
-    rad_primitive p = {.type = type, .modifier = RAD_VOID, .id = "it", .real_count = count, .reals = reals, .where = &where};
+    rad_primitive p = {
+        .type = type, .modifier = RAD_VOID, .id = "it", .real_count = count, .reals = reals, .where = &where};
     *m = (messages){0};
     graze_report report = {messages_write, m};
     return shape_from_primitive(s, degenerate, &p, memory, &report);

@@ -18,15 +18,21 @@ typedef struct oracle_crossing {
     bool front;
 } oracle_crossing;
 
-static inline exact3 exact(vec3 a) { return (exact3){a.x, a.y, a.z}; }
+static inline exact3 exact(vec3 a) {
+    return (exact3){a.x, a.y, a.z};
+}
 static inline exact3 exact_add(exact3 a, long double s, exact3 b) {
     return (exact3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
-static inline long double exact_dot(exact3 a, exact3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline long double exact_dot(exact3 a, exact3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline exact3 exact_cross(exact3 a, exact3 b) {
     return (exact3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-static inline long double exact_length(exact3 a) { return sqrtl(exact_dot(a, a)); }
+static inline long double exact_length(exact3 a) {
+    return sqrtl(exact_dot(a, a));
+}
 
 /* Even-odd in the plane after dropping the normal's largest coordinate. `margin`: distance to the outline. */
 static inline bool oracle_in_polygon(const shape *s, exact3 p, long double *margin) {
@@ -99,7 +105,8 @@ static inline int oracle_curved(const shape *s, exact3 o, exact3 d, oracle_cross
     long double dz = exact_dot(d, axis), wz = exact_dot(w, axis);
     exact3 dr = exact_add(d, -dz, axis), wr = exact_add(w, -wz, axis);
     long double r = r0 + k * wz;
-    long double a = exact_dot(dr, dr) - k * k * dz * dz, b = exact_dot(dr, wr) - k * dz * r, c = exact_dot(wr, wr) - r * r;
+    long double a = exact_dot(dr, dr) - k * k * dz * dz, b = exact_dot(dr, wr) - k * dz * r,
+                c = exact_dot(wr, wr) - r * r;
     long double discriminant = b * b - a * c;
     if (discriminant < 0)
         return 0;

@@ -158,8 +158,10 @@ static void bounds_hold_the_surface(void **state) {
                 vec3 p = k == 0 && j % 2 ? vec3_add_scaled(p1, r1, out) : vec3_add_scaled(p0, r0, out);
                 if (k == 2)
                     p = vec3_add_scaled(p0, r0, roll_direction(&d));
-                reached_lower = vec3_make(fmin(reached_lower.x, p.x), fmin(reached_lower.y, p.y), fmin(reached_lower.z, p.z));
-                reached_upper = vec3_make(fmax(reached_upper.x, p.x), fmax(reached_upper.y, p.y), fmax(reached_upper.z, p.z));
+                reached_lower =
+                    vec3_make(fmin(reached_lower.x, p.x), fmin(reached_lower.y, p.y), fmin(reached_lower.z, p.z));
+                reached_upper =
+                    vec3_make(fmax(reached_upper.x, p.x), fmax(reached_upper.y, p.y), fmax(reached_upper.z, p.z));
             }
             assert_near(reached_lower.x, lower.x, 1e-2);
             assert_near(reached_upper.z, upper.z, 1e-2);
@@ -306,7 +308,8 @@ static void crossing_outline(void **state) {
 /* Radiance's own example of a hole: the seam is two coincident edges. */
 static void square_with_square_hole(void **state) {
     (void)state;
-    vec3 v[] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
+    vec3 v[] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
+                {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
     shape s = make_polygon(memory, 10, v);
     assert_near(s.polygon.area, 12, 1e-14);
     assert_int_equal(triangles_around(&s, vec3_make(2, 2.1, 0)), 0);

@@ -19,6 +19,7 @@ render_options render_options_default(double error) {
         .error = error,
         .sample_limit = (int)defaults.sample_limit,
         .strategy = "mis",
+        .color = "RGB",
     };
     o.ignored.ambient_accuracy = 0.1;
     o.ignored.ambient_resolution = 256;
@@ -63,6 +64,7 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
          1000000, NULL, NULL},
         {"-lw", OPTION_REAL, &o->minimum_weight, "W", "weight below which paths play roulette or end", 0, 1, NULL,
          NULL},
+        {"-p", OPTION_SUFFIX, &o->color, "RGB", "Radiance's red, green and blue; nothing else yet", 0, 0, NULL, NULL},
         {"-w", OPTION_FLAG, &o->warnings, NULL, "warnings", 0, 0, NULL, NULL},
         {"", OPTION_HEADING, NULL, NULL, "Accepted for Radiance's sake, without effect", 0, 0, NULL, NULL},
         {"-aa", OPTION_REAL, &o->ignored.ambient_accuracy, "A", "ambient accuracy", 0, INFINITY, NULL, NULL},
@@ -100,6 +102,8 @@ static graze_status read_strategy(const char *name, graze_strategy *strategy, co
 
 graze_status render_options_settings(const render_options *o, bool sensor, graze_trace_settings *s,
                                      const graze_report *report) {
+    if (strcmp(o->color, "RGB") != 0)
+        return report_error(report, NULL, "-p%s is not supported yet: answers are -pRGB", o->color);
     *s = graze_trace_defaults();
     s->quantity = sensor ? GRAZE_IRRADIANCE : o->irradiance ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
     s->ambient_bounces = o->ambient_divisions > 0 ? o->ambient_bounces : 0;

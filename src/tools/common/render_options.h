@@ -14,7 +14,7 @@ typedef struct render_options {
     double ambient_value[3];
     double minimum_weight, specular_threshold, error, floor;
     int samples, sample_limit, seed;
-    const char *strategy;
+    const char *strategy, *color;
     /* Accepted so that Radiance's command lines work; Graze has nothing that they could steer. */
     struct {
         double ambient_accuracy, direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
@@ -27,7 +27,7 @@ typedef struct render_options {
 render_options render_options_default(double error);
 
 /* How many entries render_options_table fills. */
-#define RENDER_OPTION_COUNT 33
+#define RENDER_OPTION_COUNT 34
 
 /* Fills in table entries that store into *values. */
 void render_options_table(render_options *values, option table[RENDER_OPTION_COUNT]);
