@@ -6,6 +6,7 @@
 #include "image/color.h"
 
 static const double middle_gray = 0.18;
+#define EULER 2.718281828459045
 
 static double finite_or_black(double value) {
     return value > 0 ? fmin(value, 1e30) : 0;
@@ -56,17 +57,27 @@ static double exposure_of(const image *picture, size_t count) {
     return middle_gray / exp(sum / (double)counted);
 }
 
-/* Straight up to one half, then bending towards 1 without a kink. */
-static double roll_off(double value) {
-    return value <= 0.5 ? value : 1 - 0.5 * exp(1 - 2 * value);
+static double brightest_of(const image *picture, size_t count) {
+    double brightest = 0;
+    for (size_t i = 0; i < count; i++)
+        brightest = fmax(brightest, pixel_brightness(picture, i));
+    return brightest;
+}
+
+/* Straight up to one half; then by the logarithm, so that lamps and what they are mirrored in stay apart, to 1 at
+ * `white`. Up to a white of e/2 the logarithm would be steeper than the straight part, which then simply goes on. */
+static double roll_off(double value, double white) {
+    if (value <= 0.5 || white <= 0.5 * EULER)
+        return fmin(value, 1);
+    return fmin(0.5 + 0.5 * log(2 * value) / log(2 * white), 1);
 }
 
 void image_expose(const image *picture, unsigned char *bytes) {
     size_t count = (size_t)picture->width * (size_t)picture->height;
-    double exposure = exposure_of(picture, count);
+    double exposure = exposure_of(picture, count), white = exposure * brightest_of(picture, count);
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
-            double value = roll_off(exposure * finite_or_black(picture->channels[c][i]));
+            double value = roll_off(exposure * finite_or_black(picture->channels[c][i]), white);
             bytes[3 * i + (size_t)c] = (unsigned char)(255 * image_srgb_encode(value) + 0.5);
         }
 }

@@ -48,8 +48,9 @@ graze_status image_check_writable(const char *file, const graze_report *);
  * linear; what is not finite in R, G, B becomes 0 (NaN) or the largest float. */
 graze_status image_read(image **, const char *file, const graze_report *);
 
-/* 8-bit sRGB for people: linear values times an exposure that puts the picture's log-average brightness at 0.18, softly
- * rolled off towards white; 3 * width * height bytes. */
+/* 8-bit sRGB for people: linear values times an exposure that puts the picture's log-average brightness at 0.18, what
+ * is brighter than half of white compressed by the logarithm, up to the picture's brightest; 3 * width * height bytes.
+ */
 void image_expose(const image *, unsigned char *bytes);
 
 /* Draws lines of equal luminance (cd/m^2 = 179 x brightness) over the exposed picture: `per_decade` levels a factor of

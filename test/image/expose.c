@@ -44,7 +44,20 @@ static void log_average_becomes_middle_gray(void **state) {
     unsigned char bytes[6];
     image_expose(picture, bytes);
     assert_int_equal(bytes[0], (int)(255 * image_srgb_encode(0.18 / 4) + 0.5));
-    assert_int_equal(bytes[3], (int)(255 * image_srgb_encode(1 - 0.5 * exp(1 - 2 * 0.72)) + 0.5));
+    assert_int_equal(bytes[3], (int)(255 * image_srgb_encode(0.72) + 0.5));
+    image_destroy(picture);
+}
+
+/* Lamps, and what they are mirrored in, a factor of ten darker, do not both end up white. */
+static void bright_parts_stay_apart(void **state) {
+    (void)state;
+    image *picture = uniform(6, 1, 1);
+    set_gray(picture, 4, 1e3F);
+    set_gray(picture, 5, 1e4F);
+    unsigned char bytes[18];
+    image_expose(picture, bytes);
+    assert_int_equal(bytes[15], 255);
+    assert_in_range(bytes[12], 200, 245);
     image_destroy(picture);
 }
 
@@ -240,6 +253,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(brightness_itself_does_not_matter),
         cmocka_unit_test(log_average_becomes_middle_gray),
+        cmocka_unit_test(bright_parts_stay_apart),
         cmocka_unit_test(black_stays_black),
         cmocka_unit_test(odd_values_are_harmless),
         cmocka_unit_test(brighter_is_never_darker),
