@@ -165,7 +165,7 @@ lint:
 	clang-format --dry-run -Werror $(C_FILES)
 	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -I FILE clang-tidy --quiet FILE -- $(ALL_CFLAGS) -Itest
 	cppcheck --quiet --std=c11 --language=c --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
-	    --suppress=missingIncludeSystem -DGRAZE_VERSION='"$(VERSION)"' -Iinclude -Isrc -Itest $(filter %.c,$(C_FILES))
+	    --suppress=missingIncludeSystem -DGRAZE_VERSION='"$(VERSION)"' -Iinclude -Isrc $(filter src/%.c,$(C_FILES))
 
 # --- Installation ----------------------------------------------------------------------------------------------------
 

@@ -4,6 +4,8 @@
 
 #define PI 3.14159265358979323846
 
-static inline double angle_radians(double degrees) { return degrees * (PI / 180); }
+static inline double angle_radians(double degrees) {
+    return degrees * (PI / 180);
+}
 
 #endif

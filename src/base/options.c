@@ -92,7 +92,7 @@ static graze_status read_integer(const reading *r, int *used) {
 }
 
 static graze_status read_reals(const reading *r, int count, int *used) {
-    double values[3];
+    double values[3] = {0};
     for (int i = 0; i < count; i++) {
         if (i >= r->count)
             return report_missing(r);

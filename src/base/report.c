@@ -105,7 +105,7 @@ __attribute__((format(printf, 5, 0))) static void report_list(const graze_report
     text_end(&t);
 }
 
-graze_status report_error(const graze_report *report, const place *where, const char *format, ...) {
+graze_status(report_error)(const graze_report *report, const place *where, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     report_list(report, GRAZE_ERROR, where, NULL, format, arguments);
@@ -113,7 +113,7 @@ graze_status report_error(const graze_report *report, const place *where, const 
     return GRAZE_INPUT_ERROR;
 }
 
-graze_status report_system_error(const graze_report *report, const place *where, const char *format, ...) {
+graze_status(report_system_error)(const graze_report *report, const place *where, const char *format, ...) {
     int number = errno;
     char cause[256];
     if (strerror_r(number, cause, sizeof cause) != 0)
@@ -125,7 +125,7 @@ graze_status report_system_error(const graze_report *report, const place *where,
     return GRAZE_SYSTEM_ERROR;
 }
 
-graze_status report_out_of_memory(const graze_report *report) {
+graze_status(report_out_of_memory)(const graze_report *report) {
     if (report && report->write)
         report->write(report->user, GRAZE_ERROR, "out of memory");
     return GRAZE_SYSTEM_ERROR;

@@ -9,26 +9,42 @@
 typedef graze_vec3 vec3;
 typedef graze_rgb rgb;
 
-static inline vec3 vec3_make(double x, double y, double z) { return (vec3){x, y, z}; }
-static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-static inline vec3 vec3_subtract(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-static inline vec3 vec3_scale(double s, vec3 a) { return (vec3){s * a.x, s * a.y, s * a.z}; }
+static inline vec3 vec3_make(double x, double y, double z) {
+    return (vec3){x, y, z};
+}
+static inline vec3 vec3_add(vec3 a, vec3 b) {
+    return (vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline vec3 vec3_subtract(vec3 a, vec3 b) {
+    return (vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline vec3 vec3_scale(double s, vec3 a) {
+    return (vec3){s * a.x, s * a.y, s * a.z};
+}
 /* a + s b */
 static inline vec3 vec3_add_scaled(vec3 a, double s, vec3 b) {
     return (vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
-static inline vec3 vec3_negate(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }
-static inline double vec3_dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline vec3 vec3_negate(vec3 a) {
+    return (vec3){-a.x, -a.y, -a.z};
+}
+static inline double vec3_dot(vec3 a, vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline vec3 vec3_cross(vec3 a, vec3 b) {
     return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-static inline double vec3_length(vec3 a) { return sqrt(vec3_dot(a, a)); }
+static inline double vec3_length(vec3 a) {
+    return sqrt(vec3_dot(a, a));
+}
 /* a / |a|; the null vector where a is null. Beware |a|^2 overflowing or underflowing: |a| in 1e-150 .. 1e150. */
 static inline vec3 vec3_normalize(vec3 a) {
     double length = vec3_length(a);
     return length > 0 ? vec3_scale(1 / length, a) : (vec3){0, 0, 0};
 }
-static inline double vec3_max_abs(vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline double vec3_max_abs(vec3 a) {
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+}
 
 /* An orthonormal, right-handed frame: x cross y = z. */
 typedef struct frame {
@@ -43,16 +59,32 @@ static inline vec3 frame_to_world(const frame *f, vec3 v) {
     return vec3_add_scaled(vec3_add_scaled(vec3_scale(v.x, f->x), v.y, f->y), v.z, f->z);
 }
 
-static inline rgb rgb_gray(double s) { return (rgb){s, s, s}; }
-static inline rgb rgb_add(rgb a, rgb b) { return (rgb){a.r + b.r, a.g + b.g, a.b + b.b}; }
-static inline rgb rgb_multiply(rgb a, rgb b) { return (rgb){a.r * b.r, a.g * b.g, a.b * b.b}; }
-static inline rgb rgb_scale(double s, rgb a) { return (rgb){s * a.r, s * a.g, s * a.b}; }
+static inline rgb rgb_gray(double s) {
+    return (rgb){s, s, s};
+}
+static inline rgb rgb_add(rgb a, rgb b) {
+    return (rgb){a.r + b.r, a.g + b.g, a.b + b.b};
+}
+static inline rgb rgb_multiply(rgb a, rgb b) {
+    return (rgb){a.r * b.r, a.g * b.g, a.b * b.b};
+}
+static inline rgb rgb_scale(double s, rgb a) {
+    return (rgb){s * a.r, s * a.g, s * a.b};
+}
 /* a + s b */
-static inline rgb rgb_add_scaled(rgb a, double s, rgb b) { return (rgb){a.r + s * b.r, a.g + s * b.g, a.b + s * b.b}; }
-static inline double rgb_max(rgb a) { return fmax(a.r, fmax(a.g, a.b)); }
-static inline int rgb_is_black(rgb a) { return a.r == 0 && a.g == 0 && a.b == 0; }
+static inline rgb rgb_add_scaled(rgb a, double s, rgb b) {
+    return (rgb){a.r + s * b.r, a.g + s * b.g, a.b + s * b.b};
+}
+static inline double rgb_max(rgb a) {
+    return fmax(a.r, fmax(a.g, a.b));
+}
+static inline int rgb_is_black(rgb a) {
+    return a.r == 0 && a.g == 0 && a.b == 0;
+}
 /* The photopic brightness of Radiance's primaries (.640 .330 .290 .600 .150 .060, white 1/3 1/3); times 179 lm/W it is
  * luminance in cd/m^2. */
-static inline double rgb_brightness(rgb a) { return 0.265074126 * a.r + 0.670114631 * a.g + 0.064811243 * a.b; }
+static inline double rgb_brightness(rgb a) {
+    return 0.265074126 * a.r + 0.670114631 * a.g + 0.064811243 * a.b;
+}
 
 #endif

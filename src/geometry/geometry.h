@@ -22,24 +22,25 @@ typedef struct geometry_ray {
 } geometry_ray;
 
 typedef struct geometry_hit {
-    int surface;     /* index into the shapes given to geometry_build; -1: nothing hit */
+    int surface; /* index into the shapes given to geometry_build; -1: nothing hit */
     double distance;
-    vec3 point;      /* on the surface to double precision */
-    vec3 normal;     /* unit, of the surface's own side (not turned towards the ray) */
+    vec3 point;  /* on the surface to double precision */
+    vec3 normal; /* unit, of the surface's own side (not turned towards the ray) */
 } geometry_hit;
 
-/* Builds from `count` shapes, which must live as long as the geometry. `threads` bounds the build's own. An empty scene is
- * allowed and hits nothing; Embree is then not even started. */
+/* Builds from `count` shapes, which must live as long as the geometry. `threads` bounds the build's own. An empty scene
+ * is allowed and hits nothing; Embree is then not even started. */
 graze_status geometry_build(geometry **, const shape *shapes, size_t count, int threads, const graze_report *);
 void geometry_destroy(geometry *);
 
 /* The nearest hit, or false. Safe on any number of threads. A ray that is not finite hits nothing.
- * As in Radiance, what is at most 1e-6 from the origin is not hit (less in scenes smaller than 1), so that a surface which
- * lies on the one that the ray leaves does not stop it; but a surface that meets that one at an angle is hit however
- * close it is. Of surfaces that coincide within that distance, the one whose front the ray meets is hit; among equals
- * the later one. */
+ * As in Radiance, what is at most 1e-6 from the origin is not hit (less in scenes smaller than 1), so that a surface
+ * which lies on the one that the ray leaves does not stop it; but a surface that meets that one at an angle is hit
+ * however close it is. Of surfaces that coincide within that distance, the one whose front the ray meets is hit; among
+ * equals the later one. */
 bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
-/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far`, by more than that 1e-6. */
+/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far`, by more than that 1e-6.
+ */
 bool geometry_occluded(const geometry *, const geometry_ray *, int target);
 
 /* The scene's bounds; lower > upper where it is empty. */

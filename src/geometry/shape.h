@@ -12,8 +12,8 @@
 typedef enum shape_kind {
     SHAPE_POLYGON, /* any simple polygon, holes by seams */
     SHAPE_SPHERE,
-    SHAPE_CONE,    /* the side of a truncated cone; a cylinder where both radii are equal */
-    SHAPE_RING,    /* a flat disk with an optional round hole */
+    SHAPE_CONE, /* the side of a truncated cone; a cylinder where both radii are equal */
+    SHAPE_RING, /* a flat disk with an optional round hole */
 } shape_kind;
 
 typedef struct shape {
@@ -21,8 +21,8 @@ typedef struct shape {
     bool inward; /* bubble, cup, tube: the normal points inward */
     union {
         struct {
-            const vec3 *vertices; /* the outline; more stand behind it where triangles need them */
-            uint32_t vertex_count; /* of the outline */
+            const vec3 *vertices;           /* the outline; more stand behind it where triangles need them */
+            uint32_t vertex_count;          /* of the outline */
             const uint32_t (*triangles)[3]; /* indices of vertices; counter-clockwise around the normal */
             uint32_t triangle_count;
             vec3 normal;   /* unit, by the right-hand rule */
@@ -35,9 +35,9 @@ typedef struct shape {
             double radius;
         } sphere;
         struct {
-            vec3 p0, p1;    /* ends of the axis */
-            double r0, r1;  /* radii there, one of them may be 0 */
-            vec3 axis;      /* unit, from p0 to p1 */
+            vec3 p0, p1;   /* ends of the axis */
+            double r0, r1; /* radii there, one of them may be 0 */
+            vec3 axis;     /* unit, from p0 to p1 */
             double length;
         } cone;
         struct {
@@ -47,10 +47,10 @@ typedef struct shape {
     };
 } shape;
 
-/* Makes the shape of a surface primitive (not source, mesh or instance). Memory comes from the arena. Checks arguments as
- * Radiance does: polygons without area, cones without axis and cones or rings of illegal radii are warned about and give
- * *degenerate = true (the surface then does not exist); a sphere of zero radius is an error; negative radii are warned
- * about and turn the normal; non-planar polygons are warned about. */
+/* Makes the shape of a surface primitive (not source, mesh or instance). Memory comes from the arena. Checks arguments
+ * as Radiance does: polygons without area, cones without axis and cones or rings of illegal radii are warned about and
+ * give *degenerate = true (the surface then does not exist); a sphere of zero radius is an error; negative radii are
+ * warned about and turn the normal; non-planar polygons are warned about. */
 graze_status shape_from_primitive(shape *, bool *degenerate, const rad_primitive *, arena *, const graze_report *);
 
 /* Bounds: lower and upper corner, in double precision. */

@@ -56,6 +56,8 @@ static point2 flatten(const outline *o, vec3 vertex) {
 
 static vec3 mesh_vertex(const mesh *m, uint32_t index) {
     const shape *s = m->outline->polygon;
+    /* There are indices beyond the outline only where `extra` holds their points.
+     * NOLINTNEXTLINE(clang-analyzer-core.NullDereference) */
     return index < s->polygon.vertex_count ? s->polygon.vertices[index] : m->extra[index - s->polygon.vertex_count];
 }
 

@@ -41,7 +41,7 @@ static bool locate(char *path) {
     char *slash = strrchr(path, '/');
     if (!slash || (size_t)(slash + 1 - path) + strlen(relative) >= PATH_MAX)
         return false;
-    strcpy(slash + 1, relative);
+    memcpy(slash + 1, relative, strlen(relative) + 1);
     return true;
 }
 

@@ -47,11 +47,11 @@ typedef struct light_sample {
 } light_sample;
 
 /* Draws a direction towards a light, from two numbers in [0,1). */
-light_sample light_draw(const graze_scene *, const light_receiver *, int light, const double random[2]);
+light_sample light_draw(const graze_scene *, const light_receiver *, int index, const double random[2]);
 
-/* The density of light_draw for a direction that meets `light` at `hit_point` (ignored for sources), times
+/* The density of light_draw for a direction that meets light `index` at `hit_point` (ignored for sources), times
  * light_probability. */
-double light_density(const graze_scene *, const light_receiver *, int light, vec3 direction, vec3 hit_point,
+double light_density(const graze_scene *, const light_receiver *, int index, vec3 direction, vec3 hit_point,
                      vec3 hit_normal);
 
 #endif

@@ -5,15 +5,15 @@
 
 #include "image/rgbe.h"
 
-/* Every letter rtrace knows: how many numbers it prints (0: a text), and whether light must be traced for it. */
+/* Every letter rtrace knows: whether light must be traced for it, and how many numbers it prints (0: a text). */
 static const struct letter {
     char letter;
-    int numbers;
     bool value;
+    int numbers;
 } letters_known[] = {
-    {'o', 3, false}, {'d', 3, false}, {'v', 3, true},  {'e', 3, true}, {'l', 1, true},
-    {'L', 1, false}, {'c', 2, false}, {'p', 3, false}, {'n', 3, true}, {'N', 3, false},
-    {'s', 0, false}, {'m', 0, false}, {'M', 0, false}, {'w', 1, true}, {'~', 0, false},
+    {'o', false, 3}, {'d', false, 3}, {'v', true, 3},  {'e', true, 3}, {'l', true, 1},
+    {'L', false, 1}, {'c', false, 2}, {'p', false, 3}, {'n', true, 3}, {'N', false, 3},
+    {'s', false, 0}, {'m', false, 0}, {'M', false, 0}, {'w', true, 1}, {'~', false, 0},
 };
 static const char letters_of_rtrace_only[] = "VWrRxXtT";
 

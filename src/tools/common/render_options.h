@@ -29,8 +29,8 @@ render_options render_options_default(double error);
 /* How many entries render_options_table fills. */
 #define RENDER_OPTION_COUNT 34
 
-/* Fills in table entries that store into *values. */
-void render_options_table(render_options *values, option table[RENDER_OPTION_COUNT]);
+/* Fills in table entries that store into the options. */
+void render_options_table(render_options *, option table[RENDER_OPTION_COUNT]);
 
 /* Turns the values into settings, checked. `sensor` is rtrace's -I. */
 graze_status render_options_settings(const render_options *, bool sensor, graze_trace_settings *, const graze_report *);
