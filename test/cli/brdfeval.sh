@@ -1,26 +1,9 @@
 #!/bin/bash
 # brdfeval as its users run it: queries, fields, formats, bad input, bad output, threads. TAP.
-set -u
-root=${GRAZE_ROOT:-$(cd "$(dirname "$0")/../.." && pwd)}
-bin=${BIN:-$root/bin}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-brdfeval=$bin/brdfeval
-count=0
+source "$(dirname "$0")/../support/tap.sh"
+cd "$work" || exit 2
+brdfeval=$BIN/brdfeval
 
-ok() { # ok NAME STATUS
-    count=$((count + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $count - $1"; else echo "not ok $count - $1"; fi
-}
-check() { # check NAME COMMAND...: the command must succeed
-    local name=$1
-    shift
-    "$@" >check.log 2>&1
-    local status=$?
-    ok "$name" $status
-    [ $status -eq 0 ] || sed 's/^/# /' check.log
-}
 # prints NAME EXPECTED INPUT ARGUMENTS...: brdfeval must answer with these numbers, each within a millionth; - stands for any
 prints() {
     local name=$1 expected=$2 input=$3
@@ -37,20 +20,9 @@ prints() {
                 if (w[i] != "-" && d > 1e-6 * m) exit 1
             }
         }' out
-    local result=$?
-    ok "$name" $result
-    [ $result -eq 0 ] || { echo "# expected $expected, got (status $got):"; cat out err | sed 's/^/# /'; }
-}
-# fails NAME STATUS TEXT INPUT ARGUMENTS...: brdfeval must exit with the status and say the text
-fails() {
-    local name=$1 status=$2 text=$3 input=$4
-    shift 4
-    printf '%b' "$input" | "$brdfeval" "$@" >out 2>err
-    local got=$?
-    [ $got -eq "$status" ] && grep -qF -- "$text" err
-    local result=$?
-    ok "$name" $result
-    [ $result -eq 0 ] || { echo "# status $got, said:"; sed 's/^/# /' err; }
+    local status=$?
+    echo "expected $expected, exit status $got" >>err
+    result $status "$name" out err
 }
 
 pair=".8 0 .6 0 .6 .8\n" # h = (.8 .6 1.4)
@@ -172,24 +144,24 @@ check "answers come before the next record is sent" bash -c '
     done'
 
 # Bad records: what was answered stays.
-fails "a word in a record" 1 "record 2" "${mirror}0 0 x 0 0 1\n"
+fails "a word in a record" 1 "record 2" "${mirror}0 0 x 0 0 1\n" "$brdfeval"
 check "... with the answers before it" test "$(wc -l <out)" -eq 1
-fails "nan" 1 "record 1" "0 0 nan 0 0 1\n"
-fails "inf" 1 "record 3" "$mirror${mirror}0 0 1 0 0 inf\n"
+fails "nan" 1 "record 1" "0 0 nan 0 0 1\n" "$brdfeval"
+fails "inf" 1 "record 3" "$mirror${mirror}0 0 1 0 0 inf\n" "$brdfeval"
 check "... with the answers before it" test "$(wc -l <out)" -eq 2
-fails "a number too large" 1 "record 1" "0 0 1e999 0 0 1\n"
-fails "a record cut short" 1 "record 2" "${mirror}0 0 1"
-fails "numbers behind the last record" 1 "record 2 is cut short" "${mirror}1\n"
-fails "a record in doubles cut short" 1 "record 1" "abcdefg" -fd
-fails "a float that is not finite" 1 "record 1" '\0377\0377\0377\0377\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0' -ff
-fails "a light without direction" 1 "record 2: the direction to the light is zero" "${mirror}0 0 0 0 0 1\n"
+fails "a number too large" 1 "record 1" "0 0 1e999 0 0 1\n" "$brdfeval"
+fails "a record cut short" 1 "record 2" "${mirror}0 0 1" "$brdfeval"
+fails "numbers behind the last record" 1 "record 2 is cut short" "${mirror}1\n" "$brdfeval"
+fails "a record in doubles cut short" 1 "record 1" "abcdefg" "$brdfeval" -fd
+fails "a float that is not finite" 1 "record 1" '\0377\0377\0377\0377\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0' "$brdfeval" -ff
+fails "a light without direction" 1 "record 2: the direction to the light is zero" "${mirror}0 0 0 0 0 1\n" "$brdfeval"
 check "... with the answers before it" test "$(wc -l <out)" -eq 1
-fails "a viewer without direction" 1 "record 1: the direction to the viewer is zero" "0 0 1 0 0 0\n"
-fails "a sample's viewer without direction" 1 "record 1: the direction to the viewer is zero" "0 0 0 .1 .2\n" -q sample
-fails "s of 1" 1 "record 2: s is 1" "0 0 1 .1 .2\n0 0 1 1 .2\n" -q sample
+fails "a viewer without direction" 1 "record 1: the direction to the viewer is zero" "0 0 1 0 0 0\n" "$brdfeval"
+fails "a sample's viewer without direction" 1 "record 1: the direction to the viewer is zero" "0 0 0 .1 .2\n" "$brdfeval" -q sample
+fails "s of 1" 1 "record 2: s is 1" "0 0 1 .1 .2\n0 0 1 1 .2\n" "$brdfeval" -q sample
 check "... with the answers before it" test "$(wc -l <out)" -eq 1
-fails "t below 0" 1 "record 1: t is -0.1" "0 0 1 .1 -.1\n" -q sample
-fails "u of 2" 1 "record 1: u is 2" "0 0 1 .1 .1 2\n" -q pair
+fails "t below 0" 1 "record 1: t is -0.1" "0 0 1 .1 -.1\n" "$brdfeval" -q sample
+fails "u of 2" 1 "record 1: u is 2" "0 0 1 .1 .1 2\n" "$brdfeval" -q pair
 { seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; echo 0 0 0 0 0 1; seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; } >late
 for n in 1 4; do
     "$brdfeval" -n $n <late >out 2>err
@@ -197,22 +169,22 @@ for n in 1 4; do
 done
 
 # Bad options.
-fails "an unknown model" 1 "'phong'" "" -m phong
-fails "an unknown query" 1 "'what'" "" -q what
-fails "an unknown field" 1 "'x'" "" -o fx
-fails "no field" 1 "-o" "" -o ""
-fails "an unknown format" 1 "-fx" "" -fx
-fails "three formats" 1 "-fafd" "" -fafd
-fails "roughness 0" 1 "-a" "" -a 0
-fails "roughness 0 along x" 1 "-ax" "" -ax 0
-fails "too large a roughness" 1 "-ay" "" -ay 11
-fails "roughness in words" 1 "'rough'" "" -a rough
-fails "a roughness missing" 1 "-a" "" -a
-fails "a reflectance above 1" 1 "-rs" "" -rs 1.5
-fails "an unknown option" 1 "-abc" "" -abc 1
-fails "no threads" 1 "-n" "" -n 0
-fails "an operand" 1 "'file'" "" file
-fails "a missing option file" 1 "nowhere" "" @nowhere
+fails "an unknown model" 1 "'phong'" "" "$brdfeval" -m phong
+fails "an unknown query" 1 "'what'" "" "$brdfeval" -q what
+fails "an unknown field" 1 "'x'" "" "$brdfeval" -o fx
+fails "no field" 1 "-o" "" "$brdfeval" -o ""
+fails "an unknown format" 1 "-fx" "" "$brdfeval" -fx
+fails "three formats" 1 "-fafd" "" "$brdfeval" -fafd
+fails "roughness 0" 1 "-a" "" "$brdfeval" -a 0
+fails "roughness 0 along x" 1 "-ax" "" "$brdfeval" -ax 0
+fails "too large a roughness" 1 "-ay" "" "$brdfeval" -ay 11
+fails "roughness in words" 1 "'rough'" "" "$brdfeval" -a rough
+fails "a roughness missing" 1 "-a" "" "$brdfeval" -a
+fails "a reflectance above 1" 1 "-rs" "" "$brdfeval" -rs 1.5
+fails "an unknown option" 1 "-abc" "" "$brdfeval" -abc 1
+fails "no threads" 1 "-n" "" "$brdfeval" -n 0
+fails "an operand" 1 "'file'" "" "$brdfeval" file
+fails "a missing option file" 1 "nowhere" "" "$brdfeval" @nowhere
 
 # What every tool has.
 "$brdfeval" -m ward -a .3 -ay .2 -rs .6 -rd .1 -q pair -o fP --angles -fad -h -x 7 -n 3 -defaults >defaults
@@ -232,4 +204,4 @@ if [ -w /dev/full ]; then
 fi
 (for i in $(seq 50); do cat pairs; done | "$brdfeval" -o fcpwPW 2>err; echo "${PIPESTATUS[1]}" >status) | head -1 >/dev/null
 check "a closed pipe" test "$(cat status)" -eq 2
-echo "1..$count"
+plan

@@ -1,37 +1,8 @@
 #!/bin/bash
 # gpict as its users run it: outputs, views, threads, bad input, bad output. TAP.
-set -u
-root=${GRAZE_ROOT:-$(cd "$(dirname "$0")/../.." && pwd)}
-bin=${BIN:-$root/bin}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-gpict=$bin/gpict
-count=0
-
-ok() { # ok NAME STATUS
-    count=$((count + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $count - $1"; else echo "not ok $count - $1"; fi
-}
-check() { # check NAME COMMAND...: the command must succeed
-    local name=$1
-    shift
-    "$@" >check.log 2>&1
-    local status=$?
-    ok "$name" $status
-    [ $status -eq 0 ] || sed 's/^/# /' check.log
-}
-# fails NAME STATUS TEXT ARGUMENTS...: gpict must exit with the status, say the text and leave no file behind
-fails() {
-    local name=$1 status=$2 text=$3
-    shift 3
-    "$gpict" "$@" >out 2>err </dev/null
-    local got=$?
-    [ $got -eq "$status" ] && grep -qF -- "$text" err
-    local result=$?
-    ok "$name" $result
-    [ $result -eq 0 ] || { echo "# status $got, said:"; sed 's/^/# /' err; }
-}
+source "$(dirname "$0")/../support/tap.sh"
+cd "$work" || exit 2
+gpict=$BIN/gpict
 
 cat >room.rad <<'END'
 void plastic red 0 0 5 .7 .1 .1 .05 .1
@@ -68,24 +39,24 @@ check "one thread and two" cmp n1.exr n2.exr
 check "one thread and five" cmp n1.exr n5.exr
 
 # Bad options and scenes.
-fails "no scene" 1 "no scene" $view
-fails "a null view direction" 1 "direction" -vd 0 0 0 room.rad
-fails "up along the view" 1 "up" -vd 0 0 1 room.rad
-fails "a view of 200 degrees" 1 "view" -vh 200 room.rad
-fails "an unknown view type" 1 "unknown view type" -vtx room.rad
-fails "a view option cut short" 1 "-vp" -vp 1 2
-fails "a view file without a view" 1 "room.rad" -vf room.rad room.rad
-fails "a missing view file" 2 "nowhere" -vf nowhere room.rad
-fails "a picture of no size" 1 "-x" -x 0 room.rad
-fails "an unknown suffix" 1 "strange" -o picture.strange room.rad
-fails "a missing scene" 2 "nowhere.rad" nowhere.rad
+fails "no scene" 1 "no scene" "" "$gpict" $view
+fails "a null view direction" 1 "direction" "" "$gpict" -vd 0 0 0 room.rad
+fails "up along the view" 1 "up" "" "$gpict" -vd 0 0 1 room.rad
+fails "a view of 200 degrees" 1 "view" "" "$gpict" -vh 200 room.rad
+fails "an unknown view type" 1 "unknown view type" "" "$gpict" -vtx room.rad
+fails "a view option cut short" 1 "-vp" "" "$gpict" -vp 1 2
+fails "a view file without a view" 1 "room.rad" "" "$gpict" -vf room.rad room.rad
+fails "a missing view file" 2 "nowhere" "" "$gpict" -vf nowhere room.rad
+fails "a picture of no size" 1 "-x" "" "$gpict" -x 0 room.rad
+fails "an unknown suffix" 1 "strange" "" "$gpict" -o picture.strange room.rad
+fails "a missing scene" 2 "nowhere.rad" "" "$gpict" nowhere.rad
 
 # Bad output.
-fails "a folder that is not there" 2 "nowhere/a.hdr" $view -x 4 -y 4 -o nowhere/a.hdr room.rad
+fails "a folder that is not there" 2 "nowhere/a.hdr" "" "$gpict" $view -x 4 -y 4 -o nowhere/a.hdr room.rad
 if [ -w /dev/full ]; then
     "$gpict" $view -x 64 -y 64 --samples 2 room.rad >/dev/full 2>err
     check "a full disk" test $? -eq 2
     check "... says so" grep -q "No space" err
 fi
 check "nothing half-done is left behind" sh -c '! ls -A | grep -v -e "\.rad$" -e "^[abc]\.hdr$" -e "^c\.exr$" -e "^c\.png$" -e "^lines\.png$" -e "^[d]$" -e "^n[125]\.exr$" -e "^type$" -e "^err$" -e "^out$" -e "^check.log$"'
-echo "1..$count"
+plan

@@ -1,37 +1,8 @@
 #!/bin/bash
 # gtrace as its users run it: formats, letters, bad input, bad output, threads. TAP.
-set -u
-root=${GRAZE_ROOT:-$(cd "$(dirname "$0")/../.." && pwd)}
-bin=${BIN:-$root/bin}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-gtrace=$bin/gtrace
-count=0
-
-ok() { # ok NAME STATUS
-    count=$((count + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $count - $1"; else echo "not ok $count - $1"; fi
-}
-check() { # check NAME COMMAND...: the command must succeed
-    local name=$1
-    shift
-    "$@" >check.log 2>&1
-    local status=$?
-    ok "$name" $status
-    [ $status -eq 0 ] || sed 's/^/# /' check.log
-}
-# fails NAME STATUS TEXT INPUT ARGUMENTS...: gtrace must exit with the status and say the text
-fails() {
-    local name=$1 status=$2 text=$3 input=$4
-    shift 4
-    printf '%b' "$input" | "$gtrace" "$@" >out 2>err
-    local got=$?
-    [ $got -eq "$status" ] && grep -qF -- "$text" err
-    local result=$?
-    ok "$name" $result
-    [ $result -eq 0 ] || { echo "# status $got, said:"; sed 's/^/# /' err; }
-}
+source "$(dirname "$0")/../support/tap.sh"
+cd "$work" || exit 2
+gtrace=$BIN/gtrace
 
 cat >room.rad <<'END'
 void metal2 shiny 4 1 1 0 . 0 6 .6 .6 .6 .8 .1 .2
@@ -94,41 +65,41 @@ check "answers come before the next ray is sent" bash -c '
     done'
 
 # Bad rays: what was answered stays.
-fails "a word in a ray" 1 "record 2" "${down}0 0 x 0 0 1\n" -h -os room.rad
+fails "a word in a ray" 1 "record 2" "${down}0 0 x 0 0 1\n" "$gtrace" -h -os room.rad
 check "... with the answers before it" test "$(cat out)" = "$(printf 'floor\t')"
-fails "nan in a ray" 1 "record 1" "0 0 nan 0 0 1\n" -h room.rad
-fails "inf in a ray" 1 "record 1" "0 0 inf 0 0 1\n" -h room.rad
-fails "a ray cut short" 1 "record 2" "${down}0 0 1" -h room.rad
-fails "a binary ray cut short" 1 "record 1" "abcdefg" -h -ff room.rad
-fails "a binary ray that is not finite" 1 "record 1" '\0377\0377\0377\0377\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0' -h -ff room.rad
-fails "fewer rays than promised" 1 "ended after 1 of 4" "$down" -h -x 2 -y 2 room.rad
+fails "nan in a ray" 1 "record 1" "0 0 nan 0 0 1\n" "$gtrace" -h room.rad
+fails "inf in a ray" 1 "record 1" "0 0 inf 0 0 1\n" "$gtrace" -h room.rad
+fails "a ray cut short" 1 "record 2" "${down}0 0 1" "$gtrace" -h room.rad
+fails "a binary ray cut short" 1 "record 1" "abcdefg" "$gtrace" -h -ff room.rad
+fails "a binary ray that is not finite" 1 "record 1" '\0377\0377\0377\0377\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0' "$gtrace" -h -ff room.rad
+fails "fewer rays than promised" 1 "ended after 1 of 4" "$down" "$gtrace" -h -x 2 -y 2 room.rad
 
 # Bad options.
-fails "an unknown option" 1 "-q" "" -q room.rad
-fails "an option without its argument" 1 "-ab" "" -ab
-fails "a word for a number" 1 "-ab" "" -ab two room.rad
-fails "a number out of range" 1 "-ab" "" -ab -1 room.rad
-fails "an infinite number" 1 "-lw" "" -lw inf room.rad
-fails "an unknown format" 1 "-fxy" "" -fxy room.rad
-fails "an unknown letter" 1 "'q'" "" -ovq room.rad
-fails "a letter of rtrace's that is not supported" 1 "not supported" "" -oW room.rad
-fails "colors of more than the value" 1 "-ov" "" -fac -ovl room.rad
-fails "an unknown strategy" 1 "'fast'" "" --strategy fast room.rad
-fails "one sample" 1 "2 samples" "" --samples 1 room.rad
-fails "no scene" 1 "no scene" ""
-fails "standard input as a scene" 1 "standard input" "" -
-fails "irradiance of nothing" 1 "-os" "" -i -os room.rad
-fails "a missing option file" 1 "nowhere" "" @nowhere
+fails "an unknown option" 1 "-q" "" "$gtrace" -q room.rad
+fails "an option without its argument" 1 "-ab" "" "$gtrace" -ab
+fails "a word for a number" 1 "-ab" "" "$gtrace" -ab two room.rad
+fails "a number out of range" 1 "-ab" "" "$gtrace" -ab -1 room.rad
+fails "an infinite number" 1 "-lw" "" "$gtrace" -lw inf room.rad
+fails "an unknown format" 1 "-fxy" "" "$gtrace" -fxy room.rad
+fails "an unknown letter" 1 "'q'" "" "$gtrace" -ovq room.rad
+fails "a letter of rtrace's that is not supported" 1 "not supported" "" "$gtrace" -oW room.rad
+fails "colors of more than the value" 1 "-ov" "" "$gtrace" -fac -ovl room.rad
+fails "an unknown strategy" 1 "'fast'" "" "$gtrace" --strategy fast room.rad
+fails "one sample" 1 "2 samples" "" "$gtrace" --samples 1 room.rad
+fails "no scene" 1 "no scene" "" "$gtrace"
+fails "standard input as a scene" 1 "standard input" "" "$gtrace" -
+fails "irradiance of nothing" 1 "-os" "" "$gtrace" -i -os room.rad
+fails "a missing option file" 1 "nowhere" "" "$gtrace" @nowhere
 
 # Bad scenes.
-fails "a missing scene" 2 "nowhere.rad" "" nowhere.rad
+fails "a missing scene" 2 "nowhere.rad" "" "$gtrace" nowhere.rad
 echo "void plastic p 0 0 5 1 1 1 0" >cut.rad
-fails "a scene cut short" 1 "cut.rad:1" "" cut.rad
+fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
 printf '#comment\nvoid glass g 0 0 3 1 1 1\ng sphere s 0 0 4 0 0 0 1\n' >glass.rad
-fails "a type not supported" 1 "glass.rad:2:1: glass g" "" glass.rad
+fails "a type not supported" 1 "glass.rad:2:1: glass g" "" "$gtrace" glass.rad
 printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
-fails "an undefined modifier" 1 "undefined.rad:1:1" "" undefined.rad
-fails "a failing command" 1 "exit 3" "" '!exit 3'
+fails "an undefined modifier" 1 "undefined.rad:1:1" "" "$gtrace" undefined.rad
+fails "a failing command" 1 "exit 3" "" "$gtrace" '!exit 3'
 
 # Bad output.
 if [ -w /dev/full ]; then
@@ -138,4 +109,4 @@ if [ -w /dev/full ]; then
 fi
 ("$gtrace" -h -ab 1 room.rad 2>err <<<"$(for i in $(seq 100); do cat rays; done)"; echo $? >status) | head -1 >/dev/null
 check "a closed pipe" test "$(cat status)" -eq 2
-echo "1..$count"
+plan

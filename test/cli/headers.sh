@@ -1,28 +1,12 @@
 #!/bin/bash
 # The public headers as a stranger's compiler sees them: each stands alone, twice, in pedantic C11 and in C++17, and what it
 # declares keeps its C name in C++. TAP.
-set -u
-cd "${GRAZE_ROOT:?}" || exit 2
-temporary=$(mktemp -d) || exit 2
-trap 'rm -rf "$temporary"' EXIT
-number=0
-
-# check DESCRIPTION COMMAND...: the command must succeed; what it prints is shown when it does not.
-check() {
-    local description=$1
-    shift
-    number=$((number + 1))
-    if "$@" >"$temporary/log" 2>&1; then
-        echo "ok $number - $description"
-    else
-        echo "not ok $number - $description"
-        tail -n 20 "$temporary/log" | sed 's/^/# /'
-    fi
-}
+source "$(dirname "$0")/../support/tap.sh"
+cd "$GRAZE_ROOT" || exit 2
 
 warnings=(-Wall -Wextra -Wpedantic -pedantic-errors -Werror)
-compile_c() { "${CC:-cc}" -std=c11 "${warnings[@]}" -Wstrict-prototypes -Iinclude -c -o "$temporary/c.o" -x c "$1"; }
-compile_cpp() { "${CXX:-c++}" -std=c++17 "${warnings[@]}" -Iinclude -c -o "$temporary/cpp.o" -x c++ "$1"; }
+compile_c() { "${CC:-cc}" -std=c11 "${warnings[@]}" -Wstrict-prototypes -Iinclude -c -o "$work/c.o" -x c "$1"; }
+compile_cpp() { "${CXX:-c++}" -std=c++17 "${warnings[@]}" -Iinclude -c -o "$work/cpp.o" -x c++ "$1"; }
 
 # The functions a header declares.
 declared() { tr '\n' ' ' <"$1" | grep -oE 'GRAZE_API [^(;]*\(' | grep -oE '[a-z_0-9]+\($' | tr -d '('; }
@@ -39,10 +23,10 @@ c_names() {
         echo "const function functions[] = {"
         for name in $names; do echo "    reinterpret_cast<function>($name),"; done
         echo "};"
-    } >"$temporary/names.cpp"
-    compile_cpp "$temporary/names.cpp" || return 1
+    } >"$work/names.cpp"
+    compile_cpp "$work/names.cpp" || return 1
     for name in $names; do
-        nm -u "$temporary/cpp.o" | grep -qw "$name" || { echo "$name is not extern \"C\""; return 1; }
+        nm -u "$work/cpp.o" | grep -qw "$name" || { echo "$name is not extern \"C\""; return 1; }
     done
 }
 
@@ -58,12 +42,12 @@ umbrella() {
 for header in include/graze/*.h; do
     name=$(basename "$header")
     # The declaration keeps the file from being empty, which C does not allow.
-    printf '#include <graze/%s>\n#include <graze/%s>\nextern int nothing_else;\n' "$name" "$name" >"$temporary/alone"
-    check "$name stands alone in C11" compile_c "$temporary/alone"
-    check "$name stands alone in C++17" compile_cpp "$temporary/alone"
+    printf '#include <graze/%s>\n#include <graze/%s>\nextern int nothing_else;\n' "$name" "$name" >"$work/alone"
+    check "$name stands alone in C11" compile_c "$work/alone"
+    check "$name stands alone in C++17" compile_cpp "$work/alone"
     if grep -q '^GRAZE_API' "$header"; then
         check "the functions of $name keep their C names in C++" c_names "$header"
     fi
 done
 check "graze.h includes all others" umbrella
-echo "1..$number"
+plan

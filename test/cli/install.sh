@@ -1,30 +1,14 @@
 #!/bin/bash
 # What `make install` puts down: its layout, the libraries' names and symbols, and that a stranger's program builds against
 # it by pkg-config, shared and static. TAP.
-set -u
+source "$(dirname "$0")/../support/tap.sh"
 if [ -n "${GRAZE_SANITIZED:-}" ]; then
     echo "1..0 # SKIP the libraries are not built with sanitizers"
     exit
 fi
-cd "${GRAZE_ROOT:?}" || exit 2
-temporary=$(mktemp -d) || exit 2
-trap 'rm -rf "$temporary"' EXIT
-number=0
+cd "$GRAZE_ROOT" || exit 2
 
-# check DESCRIPTION COMMAND...: the command must succeed; what it prints is shown when it does not.
-check() {
-    local description=$1
-    shift
-    number=$((number + 1))
-    if "$@" >"$temporary/log" 2>&1; then
-        echo "ok $number - $description"
-    else
-        echo "not ok $number - $description"
-        tail -n 20 "$temporary/log" | sed 's/^/# /'
-    fi
-}
-
-staging=$temporary/staging
+staging=$work/staging
 prefix=/opt/graze
 root=$staging$prefix
 export PKG_CONFIG_PATH=$root/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$staging
@@ -67,7 +51,7 @@ runs() { LD_LIBRARY_PATH=$root/lib "$@" </dev/null; }
 make_quietly() { "${MAKE:-make}" --no-print-directory "$@" PREFIX=$prefix DESTDIR="$staging"; }
 
 check "make install" make_quietly install
-installed_files >"$temporary/files"
+installed_files >"$work/files"
 check "everything is where it belongs" has bin/gtrace bin/gpict bin/brdfeval lib/libgraze.a lib/libgraze.so \
     lib/libgraze.so.0 lib/pkgconfig/graze.pc lib/graze/oiio.so include/graze/graze.h share/doc/graze/LICENSE
 for tool in "$BIN"/*; do
@@ -85,11 +69,11 @@ check "pkg-config knows the version" test "$(pkg-config --modversion graze)" = "
 for example in examples/*.c; do
     name=$(basename "$example" .c)
     for kind in shared static; do
-        check "$name builds, $kind" compiled "$example" "$temporary/$name.$kind" $kind
-        check "$name runs, $kind" runs "$temporary/$name.$kind"
+        check "$name builds, $kind" compiled "$example" "$work/$name.$kind" $kind
+        check "$name runs, $kind" runs "$work/$name.$kind"
     done
 done
 check "an installed tool runs" runs "$root/bin/gtrace" --version
 check "make uninstall" make_quietly uninstall
 check "nothing is left" test -z "$(installed_files)"
-echo "1..$number"
+plan
