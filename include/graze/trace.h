@@ -23,7 +23,7 @@ typedef enum graze_strategy {
 typedef enum graze_quantity {
     GRAZE_RADIANCE = 0,   /* radiance arriving along the ray, W/sr/m^2 */
     GRAZE_IRRADIANCE_HIT, /* rtrace's -i: irradiance in W/m^2 on what the ray hits first; a light's radiance stays */
-    GRAZE_IRRADIANCE,     /* rtrace's -I: irradiance on a sensor at the ray's origin, the direction its normal */
+    GRAZE_IRRADIANCE, /* rtrace's -I: irradiance on a sensor 0.0001 above the ray's origin, the direction its normal */
 } graze_quantity;
 
 /* Start from graze_trace_defaults() and change what you want. */
@@ -33,13 +33,13 @@ typedef struct graze_trace_settings {
     int ambient_bounces;       /* -ab: diffuse interreflections followed, >= 0 */
     graze_rgb ambient_value;   /* -av: radiance that stands for all diffuse light beyond */
     int back_faces_visible;    /* -bv: 0: opaque surfaces seen from behind are not there (but cast shadows) */
-    int lights_visible;        /* -dv: 0: lights are black to the eye and in mirrors, but light everything as ever */
+    int lights_visible;        /* -dv: 0: lights nearer than a glow's radius are black to the eye and in mirrors */
     int reflection_limit;      /* -lr: > 0: no more reflections than this; 0: roulette; < 0: roulette up to the limit */
     double minimum_weight;     /* -lw: below this weight paths are dropped (reflection_limit > 0) or play roulette */
-    double specular_threshold; /* -st: rough lobes of at most this reflectance are added to the diffuse part; 0 .. 1 */
+    double specular_threshold; /* -st: rough lobes up to this reflectance, 0 .. 1, are diffuse for indirect light */
     double error;              /* stop when the standard error is below error x value; > 0 */
     double floor;              /* ... or below error x floor, in the unit of the value; >= 0 */
-    uint32_t samples;          /* if not 0: take exactly this many paths, at least 2, whatever the error */
+    uint32_t samples;          /* not 0: exactly this many paths, at least 2 (or 1, where all paths are equal) */
     uint32_t sample_limit;     /* with `error`: never more paths than this */
     uint64_t seed;             /* other seeds give other, equally good answers */
 } graze_trace_settings;
@@ -52,7 +52,7 @@ GRAZE_API graze_status graze_trace_check(const graze_trace_settings *settings, c
 typedef struct graze_ray {
     graze_vec3 origin;
     graze_vec3 direction; /* of any length but 0: it is normalised */
-    double limit;         /* surfaces beyond this distance are not seen; 0: no limit */
+    double limit;         /* surfaces beyond this distance are not seen; 0 or less: no limit */
 } graze_ray;
 
 /* Distance of what a ray never meets. */
@@ -71,7 +71,7 @@ typedef struct graze_hit {
 
 typedef struct graze_answer {
     graze_rgb value;
-    graze_rgb standard_error; /* of `value`; 0 where no random number was needed */
+    graze_rgb standard_error; /* of `value`, from the scatter of 16 replicates; 0 where all samples were equal */
     uint32_t samples;         /* paths taken */
     int converged;            /* 0: sample_limit was reached before the error asked for */
 } graze_answer;
@@ -81,8 +81,11 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
                           graze_hit *hit);
 
 /* Traces one ray. `stream` tells rays apart: the same scene, settings, ray and stream give the same bits, on any
- * thread, in any order; use the ray's number. `hit` may be null. A ray that is not finite or has no direction answers
- * 0. */
+ * thread, in any order; use the ray's number. The settings must have passed graze_trace_check. `hit` may be null; for
+ * GRAZE_IRRADIANCE it is of nothing. A ray that is not finite or has no direction answers 0.
+ *
+ * The standard error is estimated from what the samples found. Light that none of them found, such as that which a
+ * small lamp throws on a diffuse wall by way of a mirror, is in neither the value nor its error. */
 GRAZE_API void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
                            uint64_t stream, graze_answer *answer, graze_hit *hit);
 

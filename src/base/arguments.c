@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/options_internal.h"
+#include "base/text.h"
 
 /* How deep `@file` may lead to `@file`, and how many there may be: a file that names itself twice would double at each
  * turn. */
@@ -34,10 +35,6 @@ static graze_status add_word(expansion *e, const char *text, size_t length) {
 
 static graze_status expand_word(expansion *, const char *word, size_t length, const place *where, int depth);
 
-static bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 /* A text being split, and the word last taken from it. */
 typedef struct splitter {
     const char *next;
@@ -55,7 +52,7 @@ static char take(splitter *s) {
 
 static void skip_to_word(splitter *s) {
     for (;;) {
-        while (is_blank(*s->next))
+        while (text_is_blank(*s->next))
             take(s);
         if (*s->next != '#')
             return;
@@ -80,7 +77,7 @@ static graze_status take_quoted(splitter *s, char quote, const place *begin) {
 static graze_status take_word(splitter *s) {
     s->length = 0;
     s->quoted = *s->next == '\'' || *s->next == '"' || *s->next == '\\';
-    while (*s->next && !is_blank(*s->next)) {
+    while (*s->next && !text_is_blank(*s->next)) {
         place begin = s->where;
         char c = take(s);
         if (c == '\'' || c == '"') {

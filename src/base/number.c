@@ -214,7 +214,7 @@ size_t number_print(char text[NUMBER_TEXT_SIZE], int digits, double value) {
         snprintf(text, NUMBER_TEXT_SIZE, "%.*g", digits, value);
     else
         snprintf(text, NUMBER_TEXT_SIZE, "%e", value);
-    return mend_point(text);
+    return isfinite(value) ? mend_point(text) : strlen(text);
 }
 
 size_t number_print_exact(char text[NUMBER_TEXT_SIZE], double value) {
@@ -224,4 +224,8 @@ size_t number_print_exact(char text[NUMBER_TEXT_SIZE], double value) {
         if (digits == DBL_DECIMAL_DIG || (text_to_real(text, &back) && back == value))
             return length;
     }
+}
+
+float number_to_float(double value) {
+    return value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : (float)value;
 }

@@ -16,9 +16,12 @@ bool text_to_real(const char *word, double *value);
 bool text_to_integer(const char *word, int *value);
 
 enum { NUMBER_TEXT_SIZE = 64 };
-/* Prints a finite value as `%.{digits}g`, with 0 digits as `%e`, with a point whatever the locale. Gives the length. */
+/* Prints a value as `%.{digits}g`, with 0 digits as `%e`, with a point whatever the locale. Gives the length. */
 size_t number_print(char text[NUMBER_TEXT_SIZE], int digits, double value);
-/* Prints a finite value with as few digits as read back the same, but not fewer than 15 where they matter. */
+/* Prints a value with as few digits as read back the same, but not fewer than 15 where they matter. */
 size_t number_print_exact(char text[NUMBER_TEXT_SIZE], double value);
+
+/* The nearest float; what is too large becomes +-FLT_MAX. NaN stays NaN. */
+float number_to_float(double value);
 
 #endif

@@ -1,6 +1,5 @@
 /* Output records: a buffer, its growth, and its way to a descriptor. */
 #include <errno.h>
-#include <float.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,10 +44,6 @@ void record_append_text(record_buffer *b, const char *text) {
     record_append_bytes(b, text, strlen(text));
 }
 
-static float narrow(double value) {
-    return value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : (float)value;
-}
-
 static void append_ascii(record_buffer *b, int digits, double value) {
     char *room = reserve(b, NUMBER_TEXT_SIZE);
     if (!room)
@@ -67,7 +62,7 @@ void record_append_reals(record_buffer *b, record_format format, int digits, con
         if (format == RECORD_ASCII) {
             append_ascii(b, digits, values[i]);
         } else {
-            float single = narrow(values[i]);
+            float single = number_to_float(values[i]);
             record_append_bytes(b, &single, sizeof single);
         }
     }

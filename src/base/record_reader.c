@@ -9,6 +9,7 @@
 
 #include "base/number.h"
 #include "base/records.h"
+#include "base/text.h"
 
 /* One read takes what a pipe holds; a word longer than this is refused. */
 enum { BUFFER_SIZE = 1 << 16 };
@@ -109,12 +110,8 @@ static void fill(record_reader *r) {
     }
 }
 
-static bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 static void skip_blanks(record_reader *r) {
-    for (; r->begin < r->end && is_blank(r->bytes[r->begin]); r->begin++) {
+    for (; r->begin < r->end && text_is_blank(r->bytes[r->begin]); r->begin++) {
         r->line_offset++;
         if (r->bytes[r->begin] == '\n') {
             r->line += r->line < INT_MAX;
@@ -126,7 +123,7 @@ static void skip_blanks(record_reader *r) {
 /* The end of the word at `begin`: not past the buffer's. */
 static size_t word_end(const record_reader *r) {
     size_t i = r->begin;
-    while (i < r->end && !is_blank(r->bytes[i]))
+    while (i < r->end && !text_is_blank(r->bytes[i]))
         i++;
     return i;
 }
@@ -138,7 +135,7 @@ static trouble read_word(record_reader *r, double *value) {
     const char *word = r->bytes + r->begin, *limit = r->bytes + r->end;
     const char *end = number_scan(word, limit, value);
     /* A word that reaches the end of the buffer may go on behind it. */
-    if (!end || end == limit || !is_blank(*end)) {
+    if (!end || end == limit || !text_is_blank(*end)) {
         size_t behind = word_end(r);
         if (behind == r->end && !r->ended)
             return r->end - r->begin < BUFFER_SIZE ? NOTHING_AT_HAND : NOT_A_NUMBER;

@@ -45,6 +45,16 @@ static inline vec3 vec3_normalize(vec3 a) {
 static inline double vec3_max_abs(vec3 a) {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
+/* |a| for components of any finite size. */
+static inline double vec3_safe_length(vec3 a) {
+    double most = vec3_max_abs(a);
+    return most > 0 ? most * vec3_length((vec3){a.x / most, a.y / most, a.z / most}) : 0;
+}
+/* a / |a| for components of any finite size; the null vector where a is null or not finite. */
+static inline vec3 vec3_safe_normalize(vec3 a) {
+    double most = vec3_max_abs(a);
+    return most > 0 ? vec3_normalize((vec3){a.x / most, a.y / most, a.z / most}) : (vec3){0, 0, 0};
+}
 
 /* An orthonormal, right-handed frame: x cross y = z. */
 typedef struct frame {

@@ -34,16 +34,15 @@ static graze_status report_trouble(const trouble *t, const graze_report *report)
 }
 
 static void find_bounds(geometry *g, size_t count) {
-    g->lower = vec3_make(INFINITY, INFINITY, INFINITY);
-    g->upper = vec3_negate(g->lower);
+    vec3 lower = {INFINITY, INFINITY, INFINITY}, upper = vec3_negate(lower);
     for (size_t i = 0; i < count; i++) {
-        vec3 lower, upper;
-        shape_bounds(&g->shapes[i], &lower, &upper);
-        g->lower = vec3_make(fmin(g->lower.x, lower.x), fmin(g->lower.y, lower.y), fmin(g->lower.z, lower.z));
-        g->upper = vec3_make(fmax(g->upper.x, upper.x), fmax(g->upper.y, upper.y), fmax(g->upper.z, upper.z));
+        vec3 a, b;
+        shape_bounds(&g->shapes[i], &a, &b);
+        lower = vec3_make(fmin(lower.x, a.x), fmin(lower.y, a.y), fmin(lower.z, a.z));
+        upper = vec3_make(fmax(upper.x, b.x), fmax(upper.y, b.y), fmax(upper.z, b.z));
     }
-    vec3 half = vec3_scale(0.5, vec3_subtract(g->upper, g->lower));
-    g->center = vec3_add(g->lower, half);
+    vec3 half = vec3_scale(0.5, vec3_subtract(upper, lower));
+    g->center = vec3_add(lower, half);
     double reach = vec3_max_abs(half);
     int exponent;
     frexp(reach, &exponent);
@@ -92,8 +91,11 @@ static void set_tolerances(const geometry *g, geometry_triangle *triangle) {
 static void collect_polygon(const geometry *g, int surface, geometry_triangle *triangle) {
     const shape *s = &g->shapes[surface];
     for (uint32_t k = 0; k < s->polygon.triangle_count; k++, triangle++) {
-        *triangle = (geometry_triangle){
-            .normal = s->polygon.normal, .center = s->polygon.center, .surface = surface, .index = k};
+        *triangle = (geometry_triangle){.normal = s->polygon.normal,
+                                        .center = s->polygon.center,
+                                        .surface = surface,
+                                        .index = k,
+                                        .shines = s->shines};
         set_tolerances(g, triangle);
     }
 }
@@ -154,6 +156,8 @@ static void attach(geometry *g, RTCGeometry part, enum RTCBuildQuality quality) 
 
 static bool attach_triangles(geometry *g, enum RTCBuildQuality quality) {
     RTCGeometry mesh = rtcNewGeometry(g->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (!mesh)
+        return false;
     float *vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                               3 * g->triangle_count);
     unsigned *indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
@@ -188,14 +192,34 @@ static void bound_curved(const struct RTCBoundsFunctionArguments *args) {
     box->upper_z = (float)(b.z + GEOMETRY_FLOAT_ERROR);
 }
 
-static void attach_curved(geometry *g, enum RTCBuildQuality quality) {
+static bool attach_curved(geometry *g, enum RTCBuildQuality quality) {
     RTCGeometry part = rtcNewGeometry(g->device, RTC_GEOMETRY_TYPE_USER);
+    if (!part)
+        return false;
     rtcSetGeometryUserPrimitiveCount(part, (unsigned)g->curved_count);
     rtcSetGeometryUserData(part, g);
     rtcSetGeometryBoundsFunction(part, bound_curved, NULL);
     rtcSetGeometryIntersectFunction(part, geometry_intersect_curved);
     rtcSetGeometryOccludedFunction(part, geometry_occluded_curved);
     attach(g, part, quality);
+    return true;
+}
+
+/* False where Embree gives nothing, whether it tells of trouble or not. */
+static bool fill_scene(geometry *g, bool large) {
+    enum RTCBuildQuality quality = large ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+    g->scene = rtcNewScene(g->device);
+    if (!g->scene)
+        return false;
+    rtcSetSceneFlags(g->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(g->scene, quality);
+    /* Triangles are attached first: offer_neighbour() tells them by that. */
+    if (g->triangle_count && !attach_triangles(g, quality))
+        return false;
+    if (g->curved_count && !attach_curved(g, quality))
+        return false;
+    rtcCommitScene(g->scene);
+    return true;
 }
 
 static graze_status build_scene(geometry *g, int threads, const graze_report *report) {
@@ -209,17 +233,8 @@ static graze_status build_scene(geometry *g, int threads, const graze_report *re
         return report_trouble(&t, report);
     }
     rtcSetDeviceErrorFunction(g->device, note_trouble, &t);
-    g->scene = rtcNewScene(g->device);
-    enum RTCBuildQuality quality = large ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-    if (g->scene) {
-        rtcSetSceneFlags(g->scene, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(g->scene, quality);
-        bool room = !g->triangle_count || attach_triangles(g, quality);
-        if (g->curved_count)
-            attach_curved(g, quality);
-        if (room && t.code == RTC_ERROR_NONE)
-            rtcCommitScene(g->scene);
-    }
+    if (!fill_scene(g, large))
+        note_trouble(&t, RTC_ERROR_UNKNOWN, "no scene");
     rtcSetDeviceErrorFunction(g->device, NULL, NULL);
     return t.code == RTC_ERROR_NONE ? GRAZE_OK : report_trouble(&t, report);
 }
@@ -259,9 +274,4 @@ void geometry_destroy(geometry *g) {
     free(g->triangles);
     free(g->curved);
     free(g);
-}
-
-void geometry_bounds(const geometry *g, vec3 *lower, vec3 *upper) {
-    *lower = g->lower;
-    *upper = g->upper;
 }

@@ -36,14 +36,11 @@ void geometry_destroy(geometry *);
 /* The nearest hit, or false. Safe on any number of threads. A ray that is not finite hits nothing.
  * As in Radiance, what is at most 1e-6 from the origin is not hit (less in scenes smaller than 1), so that a surface
  * which lies on the one that the ray leaves does not stop it; but a surface that meets that one at an angle is hit
- * however close it is. Of surfaces that coincide within that distance, the one whose front the ray meets is hit; among
- * equals the later one. */
+ * however close it is. Of surfaces that coincide within that distance, one whose front the ray meets is hit, and among
+ * those one that shines; among equals the later one. */
 bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
-/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far`, by more than that 1e-6.
- */
+/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far`, by more than that 1e-6;
+ * or coincides with the target there and is hit in its place, as one that shines is in place of one that does not. */
 bool geometry_occluded(const geometry *, const geometry_ray *, int target);
-
-/* The scene's bounds; lower > upper where it is empty. */
-void geometry_bounds(const geometry *, vec3 *lower, vec3 *upper);
 
 #endif

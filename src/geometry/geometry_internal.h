@@ -23,18 +23,19 @@
 typedef struct geometry_triangle {
     vec3 normal, center; /* of the polygon */
     int surface;
-    uint32_t index; /* among the polygon's triangles */
+    uint32_t index : 31; /* among the polygon's triangles */
+    uint32_t shines : 1;
     /* A hit is certain in spite of single precision where its least barycentric coordinate, times the cosine at which
      * the ray meets the triangle, is above this. */
     float margin;
     float error; /* how far from the true triangle Embree may take it to be met close by, in its units */
 } geometry_triangle;
+_Static_assert(sizeof(geometry_triangle) == 64, "a triangle fills one cache line");
 
 struct geometry {
     const shape *shapes;
     RTCDevice device; /* null in an empty scene */
     RTCScene scene;
-    vec3 lower, upper;
     vec3 center;
     double radius;                /* around the center; holds all */
     double scale;                 /* a power of two that makes the radius at most 1 */

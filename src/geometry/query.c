@@ -27,6 +27,7 @@
 typedef struct candidate {
     double distance;
     int surface;
+    bool shines;
     const geometry_triangle *triangle; /* null where the surface is curved */
 } candidate;
 
@@ -43,11 +44,12 @@ typedef struct query {
     vec3 origin, direction;
     double far; /* crossings beyond are none */
     int from, target;
-    bool any; /* whether there is a crossing is all that is asked */
+    bool any; /* whether something blocks the ray is all that is asked */
     bool found_any;
+    double clear; /* crossings beyond coincide with the ray's end, where `any` is asked */
     double start; /* distance along the ray of Embree's origin: where it enters the scene, a little before */
     double end;   /* and where it leaves the scene or comes to its own end, a little behind */
-    candidate nearest, nearest_front;
+    candidate nearest, nearest_front, nearest_shining;
     float limit; /* Embree's distance beyond which nothing matters */
     miss misses[MISSES];
     int miss_count;
@@ -70,15 +72,34 @@ static bool is_before(const candidate *a, const candidate *b) {
     return a->distance < b->distance || (a->distance == b->distance && a->surface > b->surface);
 }
 
+/* Of shining surfaces that coincide the last one is hit, whichever of them roundings make the nearest: so that
+ * blocks() can tell. */
+static bool outshines(const query *q, const candidate *a, const candidate *b) {
+    double ahead = b->distance - a->distance, near = q->geometry->near;
+    return ahead > near || (ahead >= -near && a->surface > b->surface);
+}
+
+/* Whether a crossing keeps the ray from its end. What coincides with the target does not, unless it is what
+ * geometry_intersect would find there. */
+static bool blocks(const query *q, const candidate *c, double slope) {
+    if (c->distance <= q->clear)
+        return true;
+    if (q->target < 0 || !c->shines || slope >= 0)
+        return false;
+    return !q->geometry->shapes[q->target].shines || c->surface > q->target;
+}
+
 /* Takes a crossing into account, `slope` being the cosine between ray and normal; true where that shortens the search.
  */
 static bool offer(query *q, candidate c, double slope) {
     if (q->any) {
-        q->found_any = true;
-        return true;
+        q->found_any = q->found_any || blocks(q, &c, slope);
+        return q->found_any;
     }
     if (slope < 0 && is_before(&c, &q->nearest_front))
         q->nearest_front = c;
+    if (slope < 0 && c.shines && outshines(q, &c, &q->nearest_shining))
+        q->nearest_shining = c;
     if (!is_before(&c, &q->nearest))
         return false;
     q->nearest = c;
@@ -142,7 +163,7 @@ static bool is_certain(const geometry_triangle *triangle, double slope, const st
 static bool offer_met(query *q, const geometry_triangle *triangle, double slope) {
     double distance = vec3_dot(triangle->normal, vec3_subtract(triangle->center, q->origin)) / slope;
     return in_reach(q, distance, slope, triangle->normal) &&
-           offer(q, (candidate){distance, triangle->surface, triangle}, slope);
+           offer(q, (candidate){distance, triangle->surface, triangle->shines, triangle}, slope);
 }
 
 static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
@@ -202,7 +223,7 @@ static bool offer_curved(query *q, unsigned primitive) {
         vec3 normal = shape_normal(s, vec3_add_scaled(q->origin, distance, q->direction));
         double slope = vec3_dot(normal, q->direction);
         if (in_reach(q, distance, slope, normal))
-            return offer(q, (candidate){distance, surface, NULL}, slope);
+            return offer(q, (candidate){distance, surface, s->shines, NULL}, slope);
     }
     return false;
 }
@@ -299,7 +320,7 @@ static bool clip(query *q) {
  * true ray. */
 static void trace(query *q) {
     embree_context_init(&q->context);
-    q->nearest = q->nearest_front = (candidate){INFINITY, -1, NULL};
+    q->nearest = q->nearest_front = q->nearest_shining = (candidate){INFINITY, -1, false, NULL};
     cast(q);
     for (int i = 0; i < q->miss_count && !q->found_any; i++) {
         q->around = &q->misses[i];
@@ -312,6 +333,15 @@ static void trace(query *q) {
 static bool is_ray(const geometry_ray *ray) {
     double length2 = vec3_dot(ray->direction, ray->direction);
     return length2 > 0 && length2 < 2 && vec3_dot(ray->origin, ray->origin) < 1e200;
+}
+
+/* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray; and of those that do,
+ * such as a ceiling and a lamp in its plane, the one that shines. */
+static candidate visible(const query *q) {
+    double last = q->nearest.distance + q->geometry->near;
+    if (q->nearest_shining.distance <= last)
+        return q->nearest_shining;
+    return q->nearest_front.distance <= last ? q->nearest_front : q->nearest;
 }
 
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
@@ -327,9 +357,7 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
     if (!clip(&q))
         return false;
     trace(&q);
-    /* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray. */
-    bool front = q.nearest_front.distance <= q.nearest.distance + g->near;
-    candidate found = front ? q.nearest_front : q.nearest;
+    candidate found = visible(&q);
     if (found.surface < 0)
         return false;
     hit->surface = found.surface;
@@ -351,14 +379,14 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
 bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
     if (!g->scene || !is_ray(ray))
         return false;
-    /* What coincides with the ray's end does not lie before it. */
     query q = {.geometry = g,
                .origin = ray->origin,
                .direction = ray->direction,
-               .far = ray->far - g->near,
+               .far = ray->far + g->near,
                .from = ray->from,
                .target = target,
-               .any = true};
+               .any = true,
+               .clear = ray->far - g->near};
     if (!clip(&q))
         return false;
     trace(&q);

@@ -19,6 +19,7 @@ typedef enum shape_kind {
 typedef struct shape {
     shape_kind kind;
     bool inward; /* bubble, cup, tube: the normal points inward */
+    bool shines; /* of surfaces that coincide, one that shines is hit; to be set before geometry_build */
     union {
         struct {
             const vec3 *vertices;           /* the outline; more stand behind it where triangles need them */

@@ -36,17 +36,3 @@ double solid_angle_density(const shape *s, vec3 from, vec3 direction, vec3 point
     }
     return 0;
 }
-
-double solid_angle_of(const shape *s, vec3 from) {
-    switch (s->kind) {
-    case SHAPE_POLYGON:
-        return solid_angle_polygon(s, from);
-    case SHAPE_SPHERE:
-        return solid_angle_sphere(s, from);
-    case SHAPE_CONE:
-        return solid_angle_cone(s, from);
-    case SHAPE_RING:
-        return solid_angle_ring(s, from);
-    }
-    return 0;
-}

@@ -24,9 +24,6 @@ solid_angle_sample solid_angle_draw(const shape *, vec3 from, double u, double v
 /* The density with which solid_angle_draw draws a direction that hits the front at `point` with unit surface normal
  * `normal`. */
 double solid_angle_density(const shape *, vec3 from, vec3 direction, vec3 point, vec3 normal);
-/* An upper bound or close estimate of the solid angle of the front in sr; 0 only if nothing of the front is visible
- * from there. */
-double solid_angle_of(const shape *, vec3 from);
 
 /* The cone of half-angle `half_angle` (radians, up to pi) around a unit axis: `source`. Density is 1/solid angle. */
 vec3 solid_angle_draw_cone(vec3 axis, double half_angle, double u, double v);

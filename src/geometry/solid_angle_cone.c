@@ -81,7 +81,7 @@ static bool facing_range(view_cone *w, double rounding) {
     double here = w->radius_here, offset = w->offset;
     w->q = 0;
     w->table.start = 0;
-    w->table.end = SOLID_ANGLE_PI;
+    w->table.end = PI;
     if (w->inward) {
         if (here <= rounding - offset || (w->height >= 0 && w->height <= w->length && here < offset - rounding))
             return false;
@@ -101,7 +101,7 @@ static bool facing_range(view_cone *w, double rounding) {
         return false;
     if (here > 0) {
         w->q = here / offset;
-        w->table.end = 0.5 * SOLID_ANGLE_PI;
+        w->table.end = 0.5 * PI;
     } else if (here > -offset) {
         w->table.end = acos(here / offset);
     }
@@ -119,7 +119,7 @@ static bool view(view_cone *w, const shape *s, vec3 from) {
     w->steepness = w->length / w->slant;
     w->inward = s->inward;
     w->height = vec3_dot(from_p0, w->axis);
-    vec3 lateral = vec3_add_scaled(from_p0, -w->height, w->axis);
+    vec3 lateral = solid_angle_across(from_p0, w->axis);
     w->offset = vec3_length(lateral);
     double widest = fmax(w->r0, w->r1);
     w->toward = w->offset > 1e-12 * widest ? vec3_scale(1 / w->offset, lateral) : frame_around(w->axis).x;
@@ -134,11 +134,6 @@ static bool view(view_cone *w, const shape *s, vec3 from) {
     solid_angle_table_complete(&w->table);
     w->half = solid_angle_table_integral(&w->table);
     return w->half > DBL_MIN;
-}
-
-double solid_angle_cone(const shape *s, vec3 from) {
-    view_cone w;
-    return view(&w, s, from) ? 2 * w.half : 0;
 }
 
 /* Whether the inside of the side hides behind its outside from a point beyond the ends: the ray then comes in through

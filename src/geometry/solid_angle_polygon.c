@@ -142,7 +142,7 @@ static bool view_as_rectangle(view_rectangle *r, const shape *s, vec3 from) {
     complex_number whole = times(right, conjugate(left));
     r->solid_angle = atan2(whole.im, whole.re);
     if (r->solid_angle < 0)
-        r->solid_angle += 2 * SOLID_ANGLE_PI;
+        r->solid_angle += 2 * PI;
     r->start = atan2(left.im, left.re);
     return r->solid_angle > 1e-5;
 }

@@ -48,7 +48,7 @@ static azimuth azimuth_at(const azimuth_range *range, double x) {
 
 /* The x of a direction in the plane. */
 static double place_of(const azimuth_range *range, double sine, double gamma) {
-    double past = gamma - 0.5 * SOLID_ANGLE_PI;
+    double past = gamma - 0.5 * PI;
     switch (range->map) {
     case PLAIN:
         break;
@@ -126,13 +126,13 @@ static bool view(view_ring *w, const shape *s, vec3 from) {
     if (!(w->height > solid_angle_rounding(from, s->ring.center)))
         return false;
     w->to_foot = vec3_scale(-w->height, normal);
-    vec3 lateral = vec3_subtract(to_center, w->to_foot);
+    vec3 lateral = solid_angle_across(to_center, normal);
     w->offset = vec3_length(lateral);
     w->toward = w->offset > 1e-12 * w->r1 ? vec3_scale(1 / w->offset, lateral) : frame_around(normal).x;
     w->side = vec3_cross(normal, w->toward);
     w->range_count = 0;
     w->half = 0;
-    const double quarter = 0.5 * SOLID_ANGLE_PI;
+    const double quarter = 0.5 * PI;
     bool beside_hole = w->r0 > 0 && w->offset > w->r0;
     if (beside_hole)
         add_range(w, TANGENT, w->r0 / w->offset, 0, quarter);
@@ -143,14 +143,9 @@ static bool view(view_ring *w, const shape *s, vec3 from) {
         add_range(w, GRADED, 0, -sqrt(fmax(quarter - start, 0)), 0);
         add_range(w, GRADED, 0, 0, sqrt(quarter));
     } else {
-        add_range(w, PLAIN, 0, start, SOLID_ANGLE_PI);
+        add_range(w, PLAIN, 0, start, PI);
     }
     return w->half > DBL_MIN;
-}
-
-double solid_angle_ring(const shape *s, vec3 from) {
-    view_ring w;
-    return view(&w, s, from) ? 2 * w.half : 0;
 }
 
 static double azimuth_density(const view_ring *w, double tabulated, double exact) {
@@ -192,11 +187,11 @@ double solid_angle_ring_density(const shape *s, vec3 from, vec3 point) {
     vec3 in_plane = vec3_subtract(vec3_subtract(point, from), w.to_foot);
     double along = vec3_dot(in_plane, w.toward), across = fabs(vec3_dot(in_plane, w.side));
     double gamma = atan2(across, along), sine = sin(gamma);
-    bool toward_hole = gamma < 0.5 * SOLID_ANGLE_PI && w.offset * sine < w.r0;
+    bool toward_hole = gamma < 0.5 * PI && w.offset * sine < w.r0;
     const azimuth_range *range = w.ranges, *last = w.ranges + w.range_count - 1;
     if (w.offset > w.r0 && w.r0 > 0 && !toward_hole)
         range++;
-    if (range->map == GRADED && range < last && gamma > 0.5 * SOLID_ANGLE_PI)
+    if (range->map == GRADED && range < last && gamma > 0.5 * PI)
         range++;
     double x = place_of(range, sine, gamma);
     azimuth a = azimuth_at(range, x);

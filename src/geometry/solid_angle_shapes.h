@@ -1,12 +1,12 @@
-/* What solid_angle.c hands on to one file a kind of shape. Each trio has the contracts of solid_angle.h. */
+/* What solid_angle.c hands on to one file a kind of shape. Draws and densities have the contracts of solid_angle.h;
+ * where draws are uniform, the solid angle of the front tells the density, and is 0 where nothing of it is seen. */
 #ifndef GEOMETRY_SOLID_ANGLE_SHAPES_H
 #define GEOMETRY_SOLID_ANGLE_SHAPES_H
 
 #include <float.h>
 
+#include "base/angle.h"
 #include "geometry/solid_angle.h"
-
-#define SOLID_ANGLE_PI 3.14159265358979323846
 
 solid_angle_sample solid_angle_polygon_draw(const shape *, vec3 from, double u, double v);
 double solid_angle_polygon(const shape *, vec3 from);
@@ -16,15 +16,20 @@ double solid_angle_sphere(const shape *, vec3 from);
 
 solid_angle_sample solid_angle_ring_draw(const shape *, vec3 from, double u, double v);
 double solid_angle_ring_density(const shape *, vec3 from, vec3 point);
-double solid_angle_ring(const shape *, vec3 from);
 
 solid_angle_sample solid_angle_cone_draw(const shape *, vec3 from, double u, double v);
 double solid_angle_cone_density(const shape *, vec3 from, vec3 point);
-double solid_angle_cone(const shape *, vec3 from);
 
 /* A point no farther than this in front of a surface is in it: coordinates of that size cannot tell. */
 static inline double solid_angle_rounding(vec3 from, vec3 on_shape) {
     return 4 * DBL_EPSILON * (vec3_max_abs(from) + vec3_max_abs(on_shape));
+}
+
+/* The part of a vector across a unit axis. Where little is across, what the first projection leaves are roundings along
+ * the axis, too. */
+static inline vec3 solid_angle_across(vec3 v, vec3 axis) {
+    vec3 across = vec3_add_scaled(v, -vec3_dot(v, axis), axis);
+    return vec3_add_scaled(across, -vec3_dot(across, axis), axis);
 }
 
 /* The sample that ends `to_point` away; a miss where that is the point itself. */

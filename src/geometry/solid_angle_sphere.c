@@ -5,7 +5,7 @@
  * narrow cones keep all their digits. */
 static vec3 turn_from(vec3 axis, double lowered, double v) {
     frame f = frame_around(axis);
-    double sine = sqrt(lowered * fmax(2 - lowered, 0)), azimuth = 2 * SOLID_ANGLE_PI * v;
+    double sine = sqrt(lowered * fmax(2 - lowered, 0)), azimuth = 2 * PI * v;
     return frame_to_world(&f, (vec3){sine * cos(azimuth), sine * sin(azimuth), 1 - lowered});
 }
 
@@ -16,7 +16,7 @@ vec3 solid_angle_draw_cone(vec3 axis, double half_angle, double u, double v) {
 
 double solid_angle_of_cone(double half_angle) {
     double s = sin(0.5 * half_angle);
-    return 4 * SOLID_ANGLE_PI * s * s;
+    return 4 * PI * s * s;
 }
 
 typedef struct view_sphere {
@@ -47,7 +47,7 @@ double solid_angle_sphere(const shape *s, vec3 from) {
     view_sphere w = view(s, from);
     if (!sees_front(&w, s, from))
         return 0;
-    return 2 * SOLID_ANGLE_PI * (s->inward ? 2 : lowered_limb(&w, s->sphere.radius));
+    return 2 * PI * (s->inward ? 2 : lowered_limb(&w, s->sphere.radius));
 }
 
 solid_angle_sample solid_angle_sphere_draw(const shape *s, vec3 from, double u, double v) {
@@ -61,5 +61,5 @@ solid_angle_sample solid_angle_sphere_draw(const shape *s, vec3 from, double u, 
     double chord = sqrt(fmax(radius * radius - w.distance * w.distance * lowered * (2 - lowered), 0));
     double far_root = b >= 0 ? b + chord : product / (b - chord);
     double distance = s->inward ? far_root : product / far_root;
-    return (solid_angle_sample){turn_from(w.axis, lowered, v), fmax(distance, 0), 1 / (2 * SOLID_ANGLE_PI * limb)};
+    return (solid_angle_sample){turn_from(w.axis, lowered, v), fmax(distance, 0), 1 / (2 * PI * limb)};
 }

@@ -1,11 +1,10 @@
 /* Polygons cut into triangles; concave ones and those with holes by GLU's tessellator. */
 #include "geometry/tessellate.h"
 
-#include <dlfcn.h>
-#include <GL/glu.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "geometry/glu.h"
 
 /* Sine of the angle below which two edges count as one straight line, and area, in squares of the polygon's extent,
  * below which a triangle counts as none: some roundings of double precision. */
@@ -173,65 +172,6 @@ static void mesh_add_fan(mesh *m) {
         mesh_add_triangle(m, middle, o->index[i], o->index[(i + 1) % n]);
 }
 
-/* GLU's functions, by their own prototypes. */
-typedef struct glu {
-    char trouble[256]; /* why the library could not be opened, or "" */
-    __typeof__(gluNewTess) *new_tess;
-    __typeof__(gluDeleteTess) *delete_tess;
-    __typeof__(gluTessCallback) *callback;
-    __typeof__(gluTessProperty) *property;
-    __typeof__(gluTessNormal) *normal;
-    __typeof__(gluTessBeginPolygon) *begin_polygon;
-    __typeof__(gluTessBeginContour) *begin_contour;
-    __typeof__(gluTessVertex) *vertex;
-    __typeof__(gluTessEndContour) *end_contour;
-    __typeof__(gluTessEndPolygon) *end_polygon;
-    __typeof__(gluErrorString) *error_string;
-} glu;
-
-/* Written once, by glu_open. */
-static glu glu_functions;
-static pthread_once_t glu_once = PTHREAD_ONCE_INIT;
-
-static void glu_note_trouble(void) {
-    const char *text = dlerror();
-    strncpy(glu_functions.trouble, text ? text : "unknown error", sizeof glu_functions.trouble - 1);
-}
-
-static void glu_open(void) {
-    glu *g = &glu_functions;
-    void *library = dlopen("libGLU.so.1", RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
-        glu_note_trouble();
-        return;
-    }
-    /* POSIX has dlsym's result stored through a void pointer. */
-    const struct {
-        const char *name;
-        void *function;
-    } symbols[] = {
-        {"gluNewTess", &g->new_tess},
-        {"gluDeleteTess", &g->delete_tess},
-        {"gluTessCallback", &g->callback},
-        {"gluTessProperty", &g->property},
-        {"gluTessNormal", &g->normal},
-        {"gluTessBeginPolygon", &g->begin_polygon},
-        {"gluTessBeginContour", &g->begin_contour},
-        {"gluTessVertex", &g->vertex},
-        {"gluTessEndContour", &g->end_contour},
-        {"gluTessEndPolygon", &g->end_polygon},
-        {"gluErrorString", &g->error_string},
-    };
-    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++) {
-        void *symbol = dlsym(library, symbols[i].name);
-        if (!symbol) {
-            glu_note_trouble();
-            return;
-        }
-        memcpy(symbols[i].function, &symbol, sizeof symbol);
-    }
-}
-
 /* GLU carries a vertex as a pointer: its index and one, so that it is never null. */
 static void *glu_carry(uint32_t index) {
     return (void *)((uintptr_t)index + 1);
@@ -299,8 +239,7 @@ static void GLAPIENTRY glu_on_combine(GLdouble coordinates[3], void *data[4], GL
 }
 
 static graze_status mesh_add_by_glu(mesh *m, const place *where, const graze_report *report) {
-    pthread_once(&glu_once, glu_open);
-    const glu *g = &glu_functions;
+    const geometry_glu *g = geometry_glu_open();
     if (g->trouble[0]) {
         report_error(report, where, "a concave polygon needs GLU's tessellator: %s", g->trouble);
         return GRAZE_SYSTEM_ERROR;

@@ -3,6 +3,9 @@
 #define IMAGE_COLOR_H
 
 #include <stdbool.h>
+#include <stddef.h>
+
+#include "base/vector.h"
 
 /* Chromaticities x, y of red, green, blue and white. */
 typedef struct image_primaries {
@@ -20,6 +23,20 @@ typedef struct image_color_matrix {
 bool image_color_from_primaries(image_color_matrix *, const image_primaries *);
 /* CIE XYZ, with Y in the unit of brightness, to Radiance's RGB. */
 image_color_matrix image_color_from_xyz(void);
+
+/* Radiance's lm/W: luminance in cd/m^2 = 179 x brightness. */
+#define IMAGE_LUMINOUS_EFFICACY 179.0
+
+/* A pixel's value as the eye gets it: nothing of NaN and negative values, and so much of the largest ones that sums and
+ * exposures of them stay in a double's range. */
+static inline double image_visible(double value) {
+    return value > 0 ? fmin(value, 1e30) : 0;
+}
+/* The brightness of pixel `i` of the planes R, G, B. */
+static inline double image_brightness(float *const *channels, size_t i) {
+    return rgb_brightness(
+        (rgb){image_visible(channels[0][i]), image_visible(channels[1][i]), image_visible(channels[2][i])});
+}
 
 /* 8-bit sRGB's transfer function: linear 0 .. 1 to encoded 0 .. 1, and back. */
 double image_srgb_encode(double linear);

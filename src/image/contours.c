@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "image/color.h"
 #include "image/font.h"
 #include "image/formats.h"
-#include "image/text.h"
 
 enum { DECADES = 4 };         /* as many below the maximum, and no more */
 enum { SMALLEST_SIDE = 400 }; /* smaller pictures are enlarged, by a whole number */
@@ -28,10 +28,7 @@ typedef struct levels {
 } levels;
 
 static double luminance(const image *picture, size_t i) {
-    double v[3];
-    for (int c = 0; c < 3; c++)
-        v[c] = picture->channels[c][i] > 0 ? fmin((double)picture->channels[c][i], 1e30) : 0;
-    return 179 * rgb_brightness((rgb){v[0], v[1], v[2]});
+    return IMAGE_LUMINOUS_EFFICACY * image_brightness(picture->channels, i);
 }
 
 /* Smooths one line of values, `stride` apart, with weights 1 2 1; the ends count themselves twice. */
@@ -204,12 +201,14 @@ static void draw_legend(image_canvas *canvas, const levels *l, int scale) {
     image_draw_text(canvas, margin, y, scale, white, "cd/m2");
     int room = (canvas->height - 2 * margin) / row - 1;
     int step = room > 0 ? (l->count + room - 1) / room : l->count;
-    for (int i = 0; i<l->count; i += step> 0 ? step : 1) {
+    if (step < 1)
+        step = 1;
+    for (int i = 0; i < l->count; i += step) {
         int level = l->first + l->count - 1 - i;
         unsigned char color[3];
-        char number[40];
+        char number[NUMBER_TEXT_SIZE];
         level_color(l, level, color);
-        image_format_real(number, sizeof number, 6, three_digits(pow(10, (double)level / l->per_decade)));
+        number_print(number, 6, three_digits(pow(10, (double)level / l->per_decade)));
         y += row;
         int dash = 2 * IMAGE_FONT_ADVANCE * scale;
         image_fill(canvas, margin, y + IMAGE_FONT_HEIGHT / 2 * scale - scale / 2, dash, 2 * scale, color);

@@ -8,16 +8,6 @@
 static const double middle_gray = 0.18;
 #define EULER 2.718281828459045
 
-static double finite_or_black(double value) {
-    return value > 0 ? fmin(value, 1e30) : 0;
-}
-
-static double pixel_brightness(const image *picture, size_t i) {
-    rgb color = {finite_or_black(picture->channels[0][i]), finite_or_black(picture->channels[1][i]),
-                 finite_or_black(picture->channels[2][i])};
-    return rgb_brightness(color);
-}
-
 /* Brightness is counted in classes of half a stop, 2^-200 .. 2^200. */
 enum { CLASSES = 800, MIDDLE_CLASS = CLASSES / 2 };
 /* Pixels that differ from the median by more than this, a factor of a million, have no say in the exposure: a few stray
@@ -28,7 +18,7 @@ enum { COUNTED_CLASSES = 40 };
 static int median_class(const image *picture, size_t count) {
     size_t classes[CLASSES] = {0}, lit = 0, below = 0;
     for (size_t i = 0; i < count; i++) {
-        double brightness = pixel_brightness(picture, i);
+        double brightness = image_brightness(picture->channels, i);
         if (brightness > 0) {
             classes[(int)floor(2 * log2(brightness)) + MIDDLE_CLASS]++;
             lit++;
@@ -48,7 +38,7 @@ static double exposure_of(const image *picture, size_t count) {
     double sum = 0;
     size_t counted = 0;
     for (size_t i = 0; i < count; i++) {
-        double brightness = pixel_brightness(picture, i);
+        double brightness = image_brightness(picture->channels, i);
         if (brightness > 0 && abs((int)floor(2 * log2(brightness)) + MIDDLE_CLASS - median) <= COUNTED_CLASSES) {
             sum += log(brightness);
             counted++;
@@ -60,7 +50,7 @@ static double exposure_of(const image *picture, size_t count) {
 static double brightest_of(const image *picture, size_t count) {
     double brightest = 0;
     for (size_t i = 0; i < count; i++)
-        brightest = fmax(brightest, pixel_brightness(picture, i));
+        brightest = fmax(brightest, image_brightness(picture->channels, i));
     return brightest;
 }
 
@@ -74,10 +64,12 @@ static double roll_off(double value, double white) {
 
 void image_expose(const image *picture, unsigned char *bytes) {
     size_t count = (size_t)picture->width * (size_t)picture->height;
-    double exposure = exposure_of(picture, count), white = exposure * brightest_of(picture, count);
+    double chosen = picture->display_exposure;
+    double exposure = chosen > 0 ? chosen : exposure_of(picture, count),
+           white = exposure * brightest_of(picture, count);
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
-            double value = roll_off(exposure * finite_or_black(picture->channels[c][i]), white);
+            double value = roll_off(exposure * image_visible(picture->channels[c][i]), white);
             bytes[3 * i + (size_t)c] = (unsigned char)(255 * image_srgb_encode(value) + 0.5);
         }
 }

@@ -57,7 +57,7 @@ static exr_result_t set_attributes(exr_context_t context, const image *picture) 
     exr_result_t result = exr_attr_set_chromaticities(context, 0, "chromaticities", &chromaticities);
     /* cd/m^2 of (1, 1, 1) */
     if (result == EXR_ERR_SUCCESS)
-        result = exr_attr_set_float(context, 0, "whiteLuminance", 179);
+        result = exr_attr_set_float(context, 0, "whiteLuminance", (float)IMAGE_LUMINOUS_EFFICACY);
     /* OpenEXR's ratio is width over height. */
     if (result == EXR_ERR_SUCCESS)
         result = exr_set_pixel_aspect_ratio(context, 0, (float)(1 / picture->pixel_aspect));
@@ -161,6 +161,6 @@ graze_status image_write_exr(const image *picture, const char *path, const char 
         return GRAZE_OK;
     if (result == EXR_ERR_OUT_OF_MEMORY)
         return report_out_of_memory(report);
-    return report_error(report, &where, "OpenEXR: %s",
-                        sink.message[0] ? sink.message : exr_get_default_error_message(result));
+    report_error(report, &where, "OpenEXR: %s", sink.message[0] ? sink.message : exr_get_default_error_message(result));
+    return GRAZE_SYSTEM_ERROR;
 }

@@ -1,11 +1,10 @@
 /* The text at the beginning of a Radiance picture. */
 #include "image/hdr.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/options.h"
+#include "base/number.h"
 
 /* Far beyond any header met; what is longer is no picture. */
 enum { LONGEST_HEADER = 1 << 20 };
@@ -80,7 +79,7 @@ static bool read_reals(const char *text, int count, double *values) {
             return false;
         memcpy(word, text, length);
         word[length] = 0;
-        if (!text_to_real(word, &values[i]) || !isfinite(values[i]))
+        if (!text_to_real(word, &values[i]))
             return false;
         text += length;
     }

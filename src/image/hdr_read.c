@@ -3,12 +3,12 @@
 #include "image/hdr.h"
 
 #include <errno.h>
-#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "image/rgbe.h"
 
 int image_source_byte(image_source *source) {
@@ -171,7 +171,7 @@ static bool color_transform(const image_hdr_header *header, image_color_matrix *
     else if (header->has_primaries && !image_color_from_primaries(matrix, &header->primaries))
         return false;
     /* XYZE pictures hold luminance in cd/m^2. */
-    double unit = header->xyz ? 1 / 179. : 1;
+    double unit = header->xyz ? 1 / IMAGE_LUMINOUS_EFFICACY : 1;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             matrix->m[i][j] *= unit / (header->exposure * header->correction[j]);
@@ -199,7 +199,7 @@ static void decode_pixels(image *picture, const image_hdr_header *header, const 
         size_t i = pixel_index(header, n);
         for (int c = 0; c < 3; c++) {
             double value = matrix->m[c][0] * v[0] + matrix->m[c][1] * v[1] + matrix->m[c][2] * v[2];
-            picture->channels[c][i] = (float)fmin(fmax(value, 0), (double)FLT_MAX);
+            picture->channels[c][i] = number_to_float(fmax(value, 0));
         }
     }
 }
@@ -215,7 +215,6 @@ static graze_status finish(image **result, const image_hdr_header *header, const
         return report_out_of_memory(source->report);
     }
     picture->pixel_aspect = header->pixel_aspect;
-    picture->exposure = header->exposure;
     decode_pixels(picture, header, &matrix, store->rgbe);
     *result = picture;
     return GRAZE_OK;

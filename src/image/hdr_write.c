@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "image/rgbe.h"
-#include "image/text.h"
 
 /* Scanlines of these lengths are encoded, others are flat, as Radiance writes them. */
 enum { SHORTEST_ENCODED = 17, LONGEST_ENCODED = 32767 };
@@ -33,8 +33,8 @@ static void write_header(const image *picture, FILE *out) {
     if (picture->view)
         write_line(out, "VIEW= ", skip_blanks(picture->view));
     if (picture->pixel_aspect < 0.995 || picture->pixel_aspect > 1.005) {
-        char number[40];
-        image_format_real(number, sizeof number, 6, picture->pixel_aspect);
+        char number[NUMBER_TEXT_SIZE];
+        number_print(number, 6, picture->pixel_aspect);
         write_line(out, "PIXASPECT= ", number);
     }
     fputs("FORMAT=32-bit_rle_rgbe\n\n", out);

@@ -14,13 +14,13 @@ typedef struct image {
     int width, height;
     int channel_count;
     char **channel_names;
-    float **channels;     /* channel_count planes of width * height */
-    double pixel_aspect;  /* height over width of a pixel, 1 for square */
-    const char *view;     /* as behind `VIEW=`, or null */
-    const char *command;  /* the command line that made it, or null */
-    const char *software; /* "Graze 0.1.0", or null */
-    double exposure;      /* of a picture read: radiance = pixel / exposure (already divided out); 1 for ours */
-    char *text;           /* what view, command and software of a picture read lie in; null for ours */
+    float **channels;        /* channel_count planes of width * height */
+    double pixel_aspect;     /* height over width of a pixel, 1 for square */
+    const char *view;        /* as behind `VIEW=`, or null */
+    const char *command;     /* the command line that made it, or null */
+    const char *software;    /* "Graze 0.1.0", or null */
+    double display_exposure; /* factor that image_expose applies; 0: chosen by the picture */
+    char *text;              /* what view, command and software of a picture read lie in; null for ours */
 } image;
 
 /* All planes zero, view, command and software null. The first three names are R, G, B whatever is given:
@@ -48,8 +48,9 @@ graze_status image_check_writable(const char *file, const graze_report *);
  * linear; what is not finite in R, G, B becomes 0 (NaN) or the largest float. */
 graze_status image_read(image **, const char *file, const graze_report *);
 
-/* 8-bit sRGB for people: linear values times an exposure that puts the picture's log-average brightness at 0.18, what
- * is brighter than half of white compressed by the logarithm, up to the picture's brightest; 3 * width * height bytes.
+/* 8-bit sRGB for people: linear values times `display_exposure` or, where that is 0, an exposure that puts the
+ * picture's log-average brightness at 0.18, what is brighter than half of white compressed by the logarithm, up to the
+ * picture's brightest; 3 * width * height bytes.
  */
 void image_expose(const image *, unsigned char *bytes);
 

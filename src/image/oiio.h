@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* What of a picture's header travels with 8-bit formats. Texts may be null. */
+/* What of a picture's header travels with it. Texts may be null; the view is only read, for 8-bit formats have no place
+ * for it. */
 typedef struct image_oiio_header {
     double pixel_aspect; /* height over width */
     const char *view, *command, *software;

@@ -1,12 +1,12 @@
 /* A picture from a file, of whatever format. */
 #include "image/image.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "image/color.h"
 #include "image/formats.h"
 #include "image/hdr.h"
@@ -55,7 +55,7 @@ static void map_channels(channel_map *map, const image_oiio *module, const image
 /* A value of R, G or B, in any case finite. */
 static float radiance_of(float value, bool is_srgb) {
     double linear = is_srgb ? image_srgb_decode(value) : value;
-    return isnan(linear) ? 0 : (float)fmin(fmax(linear, -(double)FLT_MAX), (double)FLT_MAX);
+    return isnan(linear) ? 0 : number_to_float(linear);
 }
 
 static void copy_pixels(image *picture, const int *source, const float *pixels, int channels, bool is_srgb) {

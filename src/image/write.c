@@ -58,7 +58,7 @@ graze_status image_write_bytes(const image *picture, int width, int height, cons
         status = image_output_begin(&output, file, false, report);
     if (status != GRAZE_OK)
         return status;
-    image_oiio_header header = {picture->pixel_aspect, picture->view, picture->command, picture->software};
+    image_oiio_header header = {picture->pixel_aspect, NULL, picture->command, picture->software};
     char message[1024];
     if (!module->write(output.path, width, height, bytes, &header, message, sizeof message)) {
         report_error(report, &(place){.file = file}, "cannot write the picture: %s", message);

@@ -4,11 +4,18 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/options.h"
+#include "base/number.h"
 #include "rad/transform.h"
 
 /* `ux uy uz funcfile`, before the transform. */
 #define ORIENTATION_STRINGS 4
+
+static graze_status report_roughness(const rad_primitive *p, double roughness, const graze_report *report) {
+    char text[NUMBER_TEXT_SIZE], most[NUMBER_TEXT_SIZE];
+    number_print_exact(text, roughness);
+    number_print_exact(most, GRAZE_ROUGHNESS_MAX);
+    return rad_primitive_error(report, p, "roughness %s is above %s", text, most);
+}
 
 static graze_status check_reals(const rad_primitive *p, uint32_t count, const graze_report *report) {
     if (p->real_count != count)
@@ -19,7 +26,7 @@ static graze_status check_reals(const rad_primitive *p, uint32_t count, const gr
             return rad_primitive_error(report, p, "real argument %u is negative", (unsigned)i + 1);
     for (uint32_t i = 4; i < count; i++)
         if (p->reals[i] > GRAZE_ROUGHNESS_MAX)
-            return rad_primitive_error(report, p, "roughness %g is above %g", p->reals[i], GRAZE_ROUGHNESS_MAX);
+            return report_roughness(p, p->reals[i], report);
     return GRAZE_OK;
 }
 
@@ -80,8 +87,11 @@ static graze_status read_anisotropic(graze_material *m, const rad_primitive *p, 
     if (p->string_count < ORIENTATION_STRINGS)
         return rad_primitive_error(report, p, "needs at least %d string arguments, not %u", ORIENTATION_STRINGS,
                                    (unsigned)p->string_count);
-    if (p->reals[4] <= GRAZE_ROUGHNESS_MIN || p->reals[5] <= GRAZE_ROUGHNESS_MIN)
-        return rad_primitive_error(report, p, "roughness too small: both must be above %g", GRAZE_ROUGHNESS_MIN);
+    if (p->reals[4] <= GRAZE_ROUGHNESS_MIN || p->reals[5] <= GRAZE_ROUGHNESS_MIN) {
+        char least[NUMBER_TEXT_SIZE];
+        number_print_exact(least, GRAZE_ROUGHNESS_MIN);
+        return rad_primitive_error(report, p, "roughness too small: both must be above %s", least);
+    }
     warn_if_unphysical(p, report);
     take_reals(m, p, kind);
     return read_orientation(m, p, report);

@@ -1,8 +1,6 @@
 /* Indirect light: directions drawn for one lobe of a surface, with the weights of Eq. 16, and their densities. */
+#include "base/angle.h"
 #include "material/lobes.h"
-
-#define PI     3.1415926535897932
-#define INV_PI 0.31830988618379067
 
 static graze_surface_sample reject(const graze_surface *s) {
     return (graze_surface_sample){s->n, {0, 0, 0}, 0};

@@ -1,5 +1,4 @@
 /* From a material's parameters to a surface as seen from one direction: colours, roughness, shading frame. */
-#include <float.h>
 #include <stdbool.h>
 
 #include "base/vector.h"
@@ -18,14 +17,10 @@
 
 /* x along the part of u0 in the surface, that is v = normalize(n x u0), u = v x n. False where u0 has no such part. */
 static bool orient(vec3 n, vec3 u0, frame *f) {
-    double size = vec3_max_abs(u0);
-    if (!(size > 0 && size <= DBL_MAX))
+    vec3 v = vec3_cross(n, vec3_safe_normalize(u0));
+    if (!(vec3_length(v) > PARALLEL_SINE))
         return false;
-    vec3 u = {u0.x / size, u0.y / size, u0.z / size};
-    vec3 v = vec3_cross(n, u);
-    if (!(vec3_length(v) > PARALLEL_SINE * vec3_length(u)))
-        return false;
-    /* Where u is nearly parallel to n, v comes from differences of nearly equal numbers: take out what n has left in
+    /* Where u0 is nearly parallel to n, v comes from differences of nearly equal numbers: take out what n has left in
      * it. */
     v = vec3_normalize(v);
     v = vec3_normalize(vec3_add_scaled(v, -vec3_dot(v, n), n));

@@ -1,9 +1,8 @@
 /* The reflectance functions of a surface: how much light from l it sends to the viewer. */
 #include "material/lobes.h"
 
+#include "base/angle.h"
 #include "material/fresnel.h"
-
-#define INV_PI 0.31830988618379067
 
 rgb material_diffuse_reflectance(const graze_surface *s, double cosine) {
     /* What the polish reflects of the incoming light does not get to the body below, just as on the way out. */

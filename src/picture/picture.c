@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "base/number.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "trace/estimate.h"
@@ -60,16 +61,15 @@ static rgb sample_pixel(void *user, sampler *points, estimate_luck *luck) {
         sampler_2d(points, random);
         *luck = ESTIMATE_PLACE;
     }
-    sampler before = *points;
     graze_ray ray;
     if (!pixel_ray(p, 0.5 + jitter * (random[0] - 0.5), 0.5 + jitter * (random[1] - 0.5), &ray))
         return (rgb){0, 0, 0};
     path_context context = {r->scene, &r->trace};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
-    rgb radiance = path_radiance(&context, &first, points);
-    if (points->group != before.group)
-        *luck = ESTIMATE_NOISY;
-    return radiance;
+    path_sample sample = path_radiance(&context, &first, points);
+    if (sample.noisy)
+        *luck = sample.searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
+    return sample.radiance;
 }
 
 static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings) {
@@ -87,16 +87,16 @@ static void store_geometry(const pixel *p, size_t at) {
     if (!pixel_ray(p, 0.5, 0.5, &ray))
         return;
     graze_cast(r->scene, &r->trace, &ray, &hit);
-    r->planes.depth[at] = (float)hit.distance;
-    r->planes.normal[0][at] = (float)hit.shading_normal.x;
-    r->planes.normal[1][at] = (float)hit.shading_normal.y;
-    r->planes.normal[2][at] = (float)hit.shading_normal.z;
+    r->planes.depth[at] = number_to_float(hit.distance);
+    r->planes.normal[0][at] = number_to_float(hit.shading_normal.x);
+    r->planes.normal[1][at] = number_to_float(hit.shading_normal.y);
+    r->planes.normal[2][at] = number_to_float(hit.shading_normal.z);
 }
 
 static void store_rgb(float *const plane[3], size_t at, rgb value) {
-    plane[0][at] = (float)value.r;
-    plane[1][at] = (float)value.g;
-    plane[2][at] = (float)value.b;
+    plane[0][at] = number_to_float(value.r);
+    plane[1][at] = number_to_float(value.g);
+    plane[2][at] = number_to_float(value.b);
 }
 
 static void render_pixel(rendering *r, int column, int row) {
@@ -109,7 +109,7 @@ static void render_pixel(rendering *r, int column, int row) {
     if (!r->picture->layers)
         return;
     store_rgb(r->planes.error, at, answer.standard_error);
-    r->planes.samples[at] = (float)answer.samples;
+    r->planes.samples[at] = number_to_float(answer.samples);
     store_geometry(&p, at);
 }
 

@@ -167,15 +167,16 @@ static graze_status read_count(source *s, const rad_raw *raw, const char *what, 
     graze_status status = need_word(s, &word, raw->where, what);
     if (status)
         return status;
+    place here = place_at(s, word.line, word.column);
     char digits[32];
+    if (word.length >= sizeof digits)
+        return report_error(s->reader->report, &here, "%s: \"%s\" is too long for a %s", describe(raw, text),
+                            SHOW(&word), what);
+    memcpy(digits, word.text, word.length);
+    digits[word.length] = 0;
     int value = -1;
-    size_t kept = word.length < sizeof digits ? word.length : sizeof digits - 1;
-    memcpy(digits, word.text, kept);
-    digits[kept] = 0;
-    if (!text_to_integer(digits, &value) || value < 0) {
-        place here = place_at(s, word.line, word.column);
+    if (!text_to_integer(digits, &value) || value < 0)
         return report_error(s->reader->report, &here, "%s: \"%s\" is not a %s", describe(raw, text), SHOW(&word), what);
-    }
     *count = (uint32_t)value;
     return GRAZE_OK;
 }

@@ -213,24 +213,32 @@ const rad_primitive *rad_scene_primitives(const rad_scene *scene, size_t *count)
     return scene->primitives;
 }
 
-enum { MESSAGE_ROOM = 512 };
+/* "TYPE ID: TEXT" */
+typedef struct message {
+    char text[640];
+} message;
+
+__attribute__((format(printf, 2, 0))) static message compose(const rad_primitive *primitive, const char *format,
+                                                             va_list arguments) {
+    message m;
+    int begun = snprintf(m.text, sizeof m.text, "%s %s: ", rad_type_name(primitive->type),
+                         rad_show(primitive->id, strlen(primitive->id)).text);
+    vsnprintf(m.text + begun, sizeof m.text - (size_t)begun, format, arguments);
+    return m;
+}
 
 graze_status rad_primitive_error(const graze_report *report, const rad_primitive *primitive, const char *format, ...) {
-    char text[MESSAGE_ROOM];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    message m = compose(primitive, format, arguments);
     va_end(arguments);
-    return report_error(report, primitive->where, "%s %s: %s", rad_type_name(primitive->type),
-                        rad_show(primitive->id, strlen(primitive->id)).text, text);
+    return report_error(report, primitive->where, "%s", m.text);
 }
 
 void rad_primitive_warning(const graze_report *report, const rad_primitive *primitive, const char *format, ...) {
-    char text[MESSAGE_ROOM];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    message m = compose(primitive, format, arguments);
     va_end(arguments);
-    report_warning(report, primitive->where, "%s %s: %s", rad_type_name(primitive->type),
-                   rad_show(primitive->id, strlen(primitive->id)).text, text);
+    report_warning(report, primitive->where, "%s", m.text);
 }

@@ -1,7 +1,6 @@
 /* Views: options, files, and rays. */
 #include "rad/view.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 
 #include "base/angle.h"
 #include "base/number.h"
+#include "base/text.h"
 
 static const double tiny = 1e-6;          /* Radiance's slack on limits */
 static const double largest = 1e100;      /* of any parameter: products of them stay in a double's range */
@@ -107,17 +107,13 @@ static bool is_view_line(const char *line) {
     return false;
 }
 
-static bool is_blank(char c) {
-    return c && strchr(" \t\r\v\f", c);
-}
-
 /* Applies the view options of the line, passing over everything else; gives their number. */
 static int read_view_line(rad_view *view, char *line) {
     enum { WORDS_MOST = 4 };
     int found = 0;
     char *p = line;
     for (;;) {
-        while (is_blank(*p))
+        while (text_is_blank(*p))
             ++p;
         if (!*p)
             return found;
@@ -137,7 +133,7 @@ static int read_view_line(rad_view *view, char *line) {
             out += length + 1;
             q += length;
             ends[count++] = q;
-            while (is_blank(*q))
+            while (text_is_blank(*q))
                 ++q;
         }
         int used = 0;
@@ -186,25 +182,23 @@ graze_status rad_view_read(rad_view *view, const char *file, const graze_report 
 
 /* ---- From parameters to rays ---- */
 
+/* All of a view's numbers, in the order in which it is printed. */
+enum { NUMBERS = 15 };
+
+static void list_numbers(const rad_view *v, double numbers[NUMBERS]) {
+    const double list[NUMBERS] = {v->point.x,     v->point.y, v->point.z, v->direction.x, v->direction.y,
+                                  v->direction.z, v->up.x,    v->up.y,    v->up.z,        v->horizontal,
+                                  v->vertical,    v->fore,    v->aft,     v->shift,       v->lift};
+    memcpy(numbers, list, sizeof list);
+}
+
 static bool is_in_range(const rad_view *v) {
-    const double values[] = {v->point.x,     v->point.y, v->point.z, v->direction.x, v->direction.y,
-                             v->direction.z, v->up.x,    v->up.y,    v->up.z,        v->horizontal,
-                             v->vertical,    v->shift,   v->lift,    v->fore,        v->aft};
-    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
-        if (!(fabs(values[i]) <= largest))
+    double numbers[NUMBERS];
+    list_numbers(v, numbers);
+    for (int i = 0; i < NUMBERS; ++i)
+        if (!(fabs(numbers[i]) <= largest))
             return false;
     return true;
-}
-
-/* Stays away from under- and overflow of the square. */
-static double safe_length(vec3 v) {
-    double most = vec3_max_abs(v);
-    return most > 0 ? most * vec3_length(vec3_make(v.x / most, v.y / most, v.z / most)) : 0;
-}
-
-static vec3 safe_normalize(vec3 v) {
-    double most = vec3_max_abs(v);
-    return vec3_normalize(vec3_make(v.x / most, v.y / most, v.z / most));
 }
 
 /* The picture's extents at distance 1 from the eye (of parallel views, in the scene; of angular ones, in radians).
@@ -258,13 +252,12 @@ static const char *prepare(rad_view *v) {
         return "view parameter out of range";
     if (v->fore < -tiny || v->aft < -tiny || (v->aft > tiny && v->aft <= v->fore))
         return "illegal fore/aft clipping plane";
-    v->focus = safe_length(v->direction);
-    if (v->focus == 0)
+    if (vec3_max_abs(v->direction) == 0)
         return "zero view direction";
-    v->axis = safe_normalize(v->direction);
+    v->axis = vec3_safe_normalize(v->direction);
     if (vec3_max_abs(v->up) == 0)
         return "zero view up vector";
-    v->up = safe_normalize(v->up);
+    v->up = vec3_safe_normalize(v->up);
     vec3 right = vec3_cross(v->axis, v->up);
     if (vec3_length(right) < smallest_sine)
         return "view up parallel to view direction";
@@ -353,18 +346,13 @@ bool rad_view_ray(const rad_view *v, double x, double y, vec3 *origin, vec3 *dir
 /* ---- Pictures ---- */
 
 void rad_view_print(const rad_view *v, char *buffer, size_t size) {
-    /* Points, not commas, whatever the program's locale. */
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    locale_t former = plain ? uselocale(plain) : (locale_t)0;
-    snprintf(buffer, size,
-             " -vt%c -vp %.7g %.7g %.7g -vd %.7g %.7g %.7g -vu %.5g %.5g %.5g -vh %.5g -vv %.5g -vo %.5g -va %.5g"
-             " -vs %.5g -vl %.5g",
-             v->type, v->point.x, v->point.y, v->point.z, v->direction.x, v->direction.y, v->direction.z, v->up.x,
-             v->up.y, v->up.z, v->horizontal, v->vertical, v->fore, v->aft, v->shift, v->lift);
-    if (plain) {
-        uselocale(former);
-        freelocale(plain);
-    }
+    double numbers[NUMBERS];
+    char t[NUMBERS][NUMBER_TEXT_SIZE];
+    list_numbers(v, numbers);
+    for (int i = 0; i < NUMBERS; ++i)
+        number_print(t[i], i < 6 ? 7 : 5, numbers[i]); /* point and direction have more digits */
+    snprintf(buffer, size, " -vt%c -vp %s %s %s -vd %s %s %s -vu %s %s %s -vh %s -vv %s -vo %s -va %s -vs %s -vl %s",
+             v->type, t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9], t[10], t[11], t[12], t[13], t[14]);
 }
 
 void rad_view_fit(const rad_view *view, double *pixel_aspect, int *width, int *height) {

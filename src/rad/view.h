@@ -18,7 +18,6 @@ typedef struct rad_view {
     vec3 axis;                           /* unit viewing direction */
     vec3 right, above;                   /* of the picture, scaled for the view's type */
     double right_squared, above_squared; /* extents squared, for the aspect */
-    double focus;                        /* |direction|: focal distance for depth of field */
 } rad_view;
 
 rad_view rad_view_default(void);

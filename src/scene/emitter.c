@@ -3,6 +3,9 @@
 
 #include "base/angle.h"
 
+/* So that sums and squares of radiances stay far from overflow. */
+#define LARGEST_RADIANCE 1e100
+
 bool emitter_is(rad_type type) {
     return type == RAD_LIGHT || type == RAD_ILLUM || type == RAD_GLOW || type == RAD_SPOTLIGHT;
 }
@@ -12,7 +15,7 @@ static graze_status read_spot(scene_light *light, const rad_primitive *material,
     double cone = a[3];
     vec3 aim = vec3_make(a[4], a[5], a[6]);
     if (!(cone > 0 && cone <= 360))
-        return rad_primitive_error(report, material, "the cone's full angle must be in (0, 360] degrees, not %g", cone);
+        return rad_primitive_error(report, material, "the cone's full angle must be in (0, 360] degrees");
     if (vec3_length(aim) == 0)
         return rad_primitive_error(report, material, "the aim vector is null");
     light->spot = true;
@@ -32,13 +35,15 @@ graze_status emitter_to_light(scene_light *light, const rad_primitive *material,
         if (shapes[i].type == material->type)
             expected = shapes[i].reals;
     if (expected == 0)
-        return rad_primitive_error(report, material, "this type is not supported yet");
+        return rad_primitive_error(report, material, "%s is not supported yet", rad_type_name(material->type));
     if (material->real_count != expected || material->string_count != 0)
         return rad_primitive_error(report, material, "expected 0 strings and %u reals, found %u and %u", expected,
                                    material->string_count, material->real_count);
     const double *a = material->reals;
     if (!(a[0] >= 0 && a[1] >= 0 && a[2] >= 0))
         return rad_primitive_error(report, material, "radiance must not be negative");
+    if (rgb_max((rgb){a[0], a[1], a[2]}) > LARGEST_RADIANCE)
+        return rad_primitive_error(report, material, "radiance above 1e100 is beyond what can be computed with");
     light->radiance = (rgb){a[0], a[1], a[2]};
     if (material->type == RAD_GLOW) {
         light->glow = true;

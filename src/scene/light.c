@@ -44,8 +44,11 @@ int light_source_towards(const graze_scene *scene, vec3 direction) {
 
 static double source_importance(const scene_light *light, vec3 normal) {
     double cosine = vec3_dot(light->center, normal);
-    double slack = light->half_angle < PI / 2 ? sin(light->half_angle) : 1;
-    return cosine <= -slack ? 0 : light->power * fmin(1, (cosine + slack) / (1 + slack));
+    /* More than half the sky reaches above every horizon. */
+    if (light->half_angle >= PI / 2)
+        return light->power * fmax((1 + cosine) / 2, 0.05);
+    double slack = sin(light->half_angle);
+    return cosine <= -slack ? 0 : light->power * (cosine + slack) / (1 + slack);
 }
 
 /* How far the point stands in front of a flat light's plane; a curved light has no plane: +infinity. */

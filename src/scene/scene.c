@@ -37,25 +37,35 @@ static void fail(builder *b, graze_status status) {
 /* A failure that is told once, where the material is first used. */
 #define MATERIAL_REFUSED (-2)
 
+static bool is_mirror(const scene_material *material) {
+    const vec3 normal = {0, 0, 1};
+    graze_surface probe;
+    if (material->emits)
+        return false;
+    graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
+    return probe.specular_lobe == GRAZE_LOBE_MIRROR;
+}
+
 static int add_material(builder *b, int primitive) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[primitive];
     scene_material *material = &scene->materials[scene->material_count];
-    *material = (scene_material){.primitive = primitive, .emits = emitter_is(p->type)};
+    *material = (scene_material){.emits = emitter_is(p->type)};
     graze_status status = GRAZE_OK;
     if (material->emits)
-        status = emitter_to_light(&(scene_light){0}, p, b->report);
+        status = emitter_to_light(&material->light, p, b->report);
     else
         status = material_from_primitive(&material->reflector, p, b->report);
     if (status == GRAZE_OK && p->modifier != RAD_VOID) {
         const rad_primitive *pattern = &scene->primitives[p->modifier];
-        status = rad_primitive_error(b->report, pattern, "modifies %s %s, but this type is not supported yet",
+        status = rad_primitive_error(b->report, pattern, "modifies %s %s, which is not supported yet",
                                      rad_type_name(p->type), p->id);
     }
     if (status != GRAZE_OK) {
         fail(b, status);
         return MATERIAL_REFUSED;
     }
+    scene->has_mirrors = scene->has_mirrors || is_mirror(material);
     return (int)scene->material_count++;
 }
 
@@ -119,11 +129,13 @@ static void add_shape(builder *b, int primitive) {
     scene->surfaces[index] = (scene_surface){.primitive = primitive, .material = material, .light = -1};
     scene->surface_count++;
     check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
+    scene->shapes[index].shines = scene->materials[material].emits;
     if (!scene->materials[material].emits)
         return;
-    scene_light light = {.shape = &scene->shapes[index], .surface = (int)index, .primitive = primitive};
-    /* add_material has checked the same arguments. */
-    (void)emitter_to_light(&light, &scene->primitives[p->modifier], NULL);
+    scene_light light = scene->materials[material].light;
+    light.shape = &scene->shapes[index];
+    light.surface = (int)index;
+    light.primitive = primitive;
     bound_shape_light(&light);
     if (!rgb_is_black(light.radiance))
         scene->surfaces[index].light = (int)scene->light_count;
@@ -140,13 +152,14 @@ static void add_source(builder *b, int primitive) {
         return;
     }
     const double *a = p->reals;
-    if (p->real_count != 4 || !(a[3] > 0 && a[3] <= 360) || !(vec3_length(vec3_make(a[0], a[1], a[2])) > 0)) {
+    if (!(a[3] > 0 && a[3] <= 360) || !(vec3_length(vec3_make(a[0], a[1], a[2])) > 0)) {
         fail(b, rad_primitive_error(b->report, p,
                                     "needs 4 reals: a direction that is not null, and an angle in (0, 360]"));
         return;
     }
-    scene_light light = {.surface = -1, .primitive = primitive};
-    (void)emitter_to_light(&light, &b->scene->primitives[p->modifier], NULL);
+    scene_light light = b->scene->materials[material].light;
+    light.surface = -1;
+    light.primitive = primitive;
     light.center = vec3_normalize(vec3_make(a[0], a[1], a[2]));
     light.half_angle = angle_radians(a[3] / 2);
     if (light.spot) {
@@ -168,7 +181,7 @@ static void add_surfaces(builder *b, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const rad_primitive *p = &scene->primitives[i];
         if (p->type == RAD_MESH || p->type == RAD_INSTANCE)
-            fail(b, rad_primitive_error(b->report, p, "this type is not supported yet"));
+            fail(b, rad_primitive_error(b->report, p, "%s is not supported yet", rad_type_name(p->type)));
         else if (rad_type_is_surface(p->type) && p->type != RAD_SOURCE)
             add_shape(b, (int)i);
     }

@@ -12,13 +12,6 @@
 #include "graze/scene.h"
 #include "rad/scene_file.h"
 
-/* What a material does: it reflects, or it shines. */
-typedef struct scene_material {
-    bool emits;
-    graze_material reflector; /* unless `emits` */
-    int primitive;            /* of the material, in the description */
-} scene_material;
-
 /* How a light takes part in the lighting of a point. */
 typedef enum light_role {
     LIGHT_NONE,    /* only seen: glow with a negative radius */
@@ -45,6 +38,13 @@ typedef struct scene_light {
     double power;       /* brightness x area, or x solid angle for a source: for choosing among lights */
 } scene_light;
 
+/* What a material does: it reflects, or it shines. */
+typedef struct scene_material {
+    bool emits;
+    graze_material reflector; /* unless `emits` */
+    scene_light light;        /* if it emits: what the material says of a light */
+} scene_material;
+
 typedef struct scene_surface {
     int primitive; /* in the description */
     int material;  /* index into materials */
@@ -60,6 +60,7 @@ struct graze_scene {
     size_t surface_count;
     scene_material *materials;
     size_t material_count;
+    bool has_mirrors;
     scene_light *lights; /* the shapes first, then the sources */
     size_t light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/angle.h"
+#include "base/number.h"
 #include "base/vector.h"
 #include "graze/brdf.h"
 #include "tools/common/record_filter.h"
@@ -118,10 +119,7 @@ static vec3 direction_from_angles(double theta, double phi) {
 static vec3 direction_from_components(const double *c) {
     const double tolerance = 1e-6;
     vec3 direction = {c[0], c[1], c[2]};
-    double largest = vec3_max_abs(direction);
-    if (largest <= 2 && fabs(vec3_length(direction) - 1) <= tolerance)
-        return direction;
-    return vec3_normalize(vec3_make(c[0] / largest, c[1] / largest, c[2] / largest));
+    return fabs(vec3_safe_length(direction) - 1) <= tolerance ? direction : vec3_safe_normalize(direction);
 }
 
 static int direction_fields(const job *j) {
@@ -139,8 +137,9 @@ static bool check_record(const void *user, const double *record, char *trouble, 
     const double *random_numbers = record + direction_fields(j) * j->query->directions;
     for (int i = 0; i < j->query->random_numbers; i++)
         if (!(random_numbers[i] >= 0 && random_numbers[i] < 1)) {
-            snprintf(trouble, trouble_size, "%c is %g, but has to be at least 0 and less than 1", "stu"[i],
-                     random_numbers[i]);
+            char text[NUMBER_TEXT_SIZE];
+            number_print_exact(text, random_numbers[i]);
+            snprintf(trouble, trouble_size, "%c is %s, but has to be at least 0 and less than 1", "stu"[i], text);
             return false;
         }
     return true;
@@ -259,8 +258,8 @@ static graze_status read_roughness(void *target, const char *suffix, int count, 
     if (*suffix)
         return report_error(report, NULL, "unknown option '-a%s'", suffix);
     if (count < 1 || !text_to_real(words[0], &alpha) || alpha < GRAZE_ROUGHNESS_MIN || alpha > GRAZE_ROUGHNESS_MAX)
-        return report_error(report, NULL, "-a: expected a roughness from %g to %g, got '%s'", GRAZE_ROUGHNESS_MIN,
-                            GRAZE_ROUGHNESS_MAX, count < 1 ? "nothing" : words[0]);
+        return report_error(report, NULL, "-a: expected a roughness from 1e-6 to 10, got '%s'",
+                            count < 1 ? "nothing" : words[0]);
     o->alpha_x = o->alpha_y = alpha;
     *used = 1;
     return GRAZE_OK;

@@ -1,14 +1,16 @@
 /* gpict: a picture of a scene, in rpict's manners. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/formats.h"
 #include "image/image.h"
 #include "picture/picture.h"
 #include "tools/common/render_options.h"
 #include "tools/common/tool.h"
 
 /* Entries of the option table that are gpict's own. */
-#define GPICT_OPTION_COUNT 21
+#define GPICT_OPTION_COUNT 24
 #define OUTPUT_LIMIT       8
 
 /* Files to write besides or instead of standard output. */
@@ -21,7 +23,7 @@ typedef struct gpict_options {
     render_options render;
     rad_view view;
     int width, height;
-    double pixel_aspect, jitter;
+    double pixel_aspect, jitter, exposure, sample_spacing, sample_tolerance;
     bool progress;
     outputs pictures;
     const char *contours;
@@ -88,11 +90,9 @@ static graze_status write_outputs(const gpict_options *o, const image *picture, 
 }
 
 static bool needs_layers(const gpict_options *o) {
-    for (int i = 0; i < o->pictures.count; i++) {
-        size_t length = strlen(o->pictures.files[i]);
-        if (length > 4 && strcmp(o->pictures.files[i] + length - 4, ".exr") == 0)
+    for (int i = 0; i < o->pictures.count; i++)
+        if (image_format_of(o->pictures.files[i]) == IMAGE_FORMAT_EXR)
             return true;
-    }
     return false;
 }
 
@@ -105,6 +105,7 @@ static graze_status finish(const gpict_options *o, const picture_settings *setti
     picture->view = view;
     picture->command = command;
     picture->software = "Graze " GRAZE_VERSION;
+    picture->display_exposure = o->exposure;
     if (unconverged && o->render.warnings)
         report_warning(report, NULL, "%zu of %zu pixels reached --max-samples before --error", unconverged,
                        (size_t)settings->width * (size_t)settings->height);
@@ -156,6 +157,8 @@ int main(int argc, char **argv) {
                        .jitter = 1,
                        .progress = true,
                        .contours = "",
+                       .sample_spacing = 4,
+                       .sample_tolerance = .05,
                        .contours_per_decade = 4};
     option table[GPICT_OPTION_COUNT + RENDER_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "View", 0, 0, NULL, NULL},
@@ -179,10 +182,15 @@ int main(int argc, char **argv) {
         {"-pj", OPTION_REAL, &o.jitter, "R", "part of a pixel that its samples spread over", 0, 1, NULL, NULL},
         {"-o", OPTION_CUSTOM, &o.pictures, "FILE", "write FILE.hdr, .exr or .png ... instead of standard output", 0, 0,
          take_output, NULL},
+        {"--exposure", OPTION_REAL, &o.exposure, "E", "factor for 8-bit pictures; 0: by the picture", 0, INFINITY, NULL,
+         NULL},
         {"--contours", OPTION_TEXT, &o.contours, "FILE", "write a picture with lines of equal luminance", 0, 0, NULL,
          NULL},
         {"--contours-per-decade", OPTION_INTEGER, &o.contours_per_decade, "N", "lines for a factor of ten in luminance",
          1, 20, NULL, NULL},
+        {"-ps", OPTION_REAL, &o.sample_spacing, "N", "without effect: every pixel is sampled", 0, INFINITY, NULL, NULL},
+        {"-pt", OPTION_REAL, &o.sample_tolerance, "R", "without effect: nothing is interpolated", 0, INFINITY, NULL,
+         NULL},
         {"--progress", OPTION_FLAG, &o.progress, NULL, "progress bar on a terminal", 0, 0, NULL, NULL},
     };
     render_options_table(&o.render, table + GPICT_OPTION_COUNT);

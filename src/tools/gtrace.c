@@ -37,18 +37,15 @@ static void answer_ray(void *user, const double *record, uint64_t number, record
     graze_ray ray = {.origin = {record[0], record[1], record[2]}, .direction = {record[3], record[4], record[5]}};
     graze_hit hit = {.distance = GRAZE_FAR, .point = ray.origin};
     graze_answer answer = {.converged = 1};
+    double length = vec3_safe_length(ray.direction);
+    if (j->options->limit_distance)
+        ray.limit = length;
+    ray.direction = vec3_safe_normalize(ray.direction);
     /* A null direction asks for an empty record. */
-    double scale = vec3_max_abs(ray.direction);
-    if (scale > 0) {
-        vec3 scaled = {ray.direction.x / scale, ray.direction.y / scale, ray.direction.z / scale};
-        if (j->options->limit_distance)
-            ray.limit = scale * vec3_length(scaled);
-        ray.direction = vec3_normalize(scaled);
-        if (j->output.needs_value)
-            graze_trace(j->scene, &j->settings, &ray, number, &answer, &hit);
-        else
-            graze_cast(j->scene, &j->settings, &ray, &hit);
-    }
+    if (length > 0 && j->output.needs_value)
+        graze_trace(j->scene, &j->settings, &ray, number, &answer, &hit);
+    else if (length > 0)
+        graze_cast(j->scene, &j->settings, &ray, &hit);
     if (!answer.converged)
         atomic_fetch_add(&j->unconverged, 1);
     ray_output_append(&j->output, out, &ray, &hit, &answer);

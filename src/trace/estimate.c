@@ -5,17 +5,23 @@
 
 /* The first look at the error comes after this many samples a replicate; then after every doubling. */
 #define FIRST_LOOK 2u
-/* Nothing but zeros says nothing of the error, except that less than about 3 in this many paths carry light. Where
- * lights are sampled that means shadow; reflections alone may take long to find a small light, and every one counts if
- * there is no floor under the error. */
-#define ZEROS_BELIEVED                512u
-#define ZEROS_BELIEVED_OF_REFLECTIONS 65536u
+/* Samples tell nothing of light that none of them has found, except that less than about 3 in their number carry it. So
+ * many are taken before an answer is believed: of nothing but zeros, which where lights are sampled means shadow; of
+ * paths that search; and of nothing but zeros from a search by reflections alone, which may take long to find a small
+ * light, unless a floor under the error makes it too faint to matter. */
+#define ZEROS_BELIEVED        512u
+#define SEARCH_BELIEVED       512u
+#define EMPTY_SEARCH_BELIEVED 65536u
+
+/* In all that is noisy, something of the value's own size that has happened in none of n samples may yet change the
+ * mean by a part of 1/n; so many times 1/n must be within the error. */
+#define UNSEEN 1.0
 
 typedef struct replicates {
     uint64_t key[ESTIMATE_REPLICATES];
     rgb sum[ESTIMATE_REPLICATES];
-    uint32_t taken; /* of all replicates together */
-    bool noisy;     /* whether any sample was */
+    uint32_t taken;     /* of all replicates together */
+    estimate_luck luck; /* the worst of any sample */
 } replicates;
 
 static uint32_t replicate_count(const replicates *r, int i) {
@@ -44,7 +50,7 @@ static estimate_luck take_one(replicates *r, estimate_sample *sample, void *user
     sampler points = sampler_start(r->key[i], r->taken / ESTIMATE_REPLICATES);
     estimate_luck luck = ESTIMATE_NOISY;
     r->sum[i] = rgb_add(r->sum[i], sample(user, &points, &luck));
-    r->noisy = r->noisy || luck == ESTIMATE_NOISY;
+    r->luck = luck > r->luck ? luck : r->luck;
     r->taken++;
     return luck;
 }
@@ -54,27 +60,40 @@ static void take_until(replicates *r, uint32_t goal, estimate_sample *sample, vo
         (void)take_one(r, sample, user);
 }
 
-static bool are_zeros_believed(const graze_trace_settings *s, const replicates *r) {
-    bool lucky = s->strategy == GRAZE_STRATEGY_BRDF && s->floor == 0;
-    return !r->noisy || r->taken >= (lucky ? ZEROS_BELIEVED_OF_REFLECTIONS : ZEROS_BELIEVED);
+static double samples_to_believe(const graze_trace_settings *s, const replicates *r, double value) {
+    if (r->luck < ESTIMATE_NOISY)
+        return 0;
+    bool search = r->luck == ESTIMATE_SEARCH;
+    if (value == 0 && search && s->strategy == GRAZE_STRATEGY_BRDF && s->floor == 0)
+        return EMPTY_SEARCH_BELIEVED;
+    if (value == 0)
+        return ZEROS_BELIEVED;
+    double unseen = UNSEEN * value / (s->error * fmax(value, s->floor));
+    return search ? fmax(unseen, SEARCH_BELIEVED) : unseen;
 }
 
-static bool is_good_enough(const graze_trace_settings *s, const replicates *r, const graze_answer *answer) {
-    double value = rgb_max(answer->value), error = rgb_max(answer->standard_error);
-    return value == 0 ? are_zeros_believed(s, r) : error <= s->error * fmax(value, s->floor);
+/* How many times too large the error is. */
+static double excess(const graze_trace_settings *s, const graze_answer *answer) {
+    double value = rgb_max(answer->value), allowed = s->error * fmax(value, s->floor);
+    return allowed > 0 ? rgb_max(answer->standard_error) / allowed : 0;
 }
 
-/* Looks at the error after every doubling, until it is good enough or the limit is reached. */
+/* Looks at the error after every doubling, until it is small enough or the limit is reached. An error that is small by
+ * chance, because the samples happen to agree, was seldom small before; so it must have been at most twice as large
+ * when there were half as many. */
 static bool refine(replicates *r, const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
-    for (uint32_t goal = FIRST_LOOK * ESTIMATE_REPLICATES;; goal *= 2) {
+    double before = 0;
+    for (uint64_t goal = FIRST_LOOK * ESTIMATE_REPLICATES;; goal *= 2) {
         bool last = goal >= s->sample_limit;
-        take_until(r, last ? s->sample_limit : goal, sample, user);
+        take_until(r, last ? s->sample_limit : (uint32_t)goal, sample, user);
         summarize(r, answer);
-        if (is_good_enough(s, r, answer))
+        double now = excess(s, answer);
+        if (now <= 1 && before <= 2 && r->taken >= samples_to_believe(s, r, rgb_max(answer->value)))
             return true;
         if (last)
             return false;
+        before = now;
     }
 }
 

@@ -17,9 +17,10 @@
 
 /* What a sample's value depends on besides its question. */
 typedef enum estimate_luck {
-    ESTIMATE_EXACT, /* nothing: all samples are equal */
-    ESTIMATE_PLACE, /* on random numbers that chose where to look, as in a pixel, but not on what is seen there */
-    ESTIMATE_NOISY, /* on random numbers */
+    ESTIMATE_EXACT,  /* nothing: all samples are equal */
+    ESTIMATE_PLACE,  /* on random numbers that chose where to look, as in a pixel, but not on what is seen there */
+    ESTIMATE_NOISY,  /* on random numbers */
+    ESTIMATE_SEARCH, /* on random numbers that must be lucky to find some of the light */
 } estimate_luck;
 
 /* Draws one sample. */

@@ -6,8 +6,6 @@
  * costs an ambient bounce. */
 #include "trace/path.h"
 
-#include <float.h>
-
 #include "base/angle.h"
 #include "graze/material.h"
 #include "scene/light.h"
@@ -36,6 +34,7 @@ typedef struct scattering {
     graze_lobe lobe; /* NONE: the ray comes from the eye */
     double density;  /* of the direction, per unit solid angle, the choice of the lobe included */
     rgb direct;      /* throughput for LIGHT_DIRECT, which differs where a gloss was made ambient */
+    rgb indirect;    /* throughput for LIGHT_AMBIENT, also where the path ends with this reflection */
     bool ambient;    /* LIGHT_AMBIENT counts */
     light_receiver receiver;
 } scattering;
@@ -47,6 +46,7 @@ typedef struct path {
     int ambient_depth; /* diffuse reflections so far */
     int depth;         /* all reflections so far */
     bool scattered;    /* whether any of them was not a mirror's */
+    bool searching;    /* whether one may meet lights that no light sample finds */
     scattering last;
 } path;
 
@@ -120,10 +120,15 @@ static bool samples_lights(const path_context *context) {
     return context->settings->strategy != GRAZE_STRATEGY_BRDF;
 }
 
+/* Whether the other strategies would sample glows here, where a path that ends must not look for more than they do. */
+static bool samples_glows_otherwise(const path_context *context) {
+    return context->settings->back_faces_visible;
+}
+
 /* Glows that shine through hidden back faces would be lost to shadow rays, which those stop as in Radiance: so without
  * back faces, glows are found by reflection alone. */
 static bool samples_glows(const path_context *context) {
-    return samples_lights(context) && context->settings->back_faces_visible;
+    return samples_lights(context) && samples_glows_otherwise(context);
 }
 
 /* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
@@ -150,8 +155,7 @@ static void add_emission(path *p, const path_hit *hit) {
     if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
         if (role == LIGHT_AMBIENT && !p->last.ambient)
             return;
-        if (role == LIGHT_DIRECT)
-            throughput = p->last.direct;
+        throughput = role == LIGHT_DIRECT ? p->last.direct : p->last.indirect;
         throughput = rgb_scale(found_weight(p, hit, role), throughput);
         radiance = light_radiance_at(light, hit->direction, hit->normal, hit->distance);
     } else if (role != LIGHT_AMBIENT && !p->context->settings->lights_visible) {
@@ -183,29 +187,38 @@ static double survival(const path *p, rgb reflectance) {
     return p->depth >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
-/* Probabilities of going on with each lobe; they sum to at most 1. */
+/* Probabilities of going on with each lobe; they sum to at most 1. Where a lobe `ends`, the ray only looks for lights
+ * that shine on the vertex: what sampling the lights would find. */
 typedef struct lobe_choice {
     double diffuse, specular;
+    bool diffuse_ends, specular_ends;
 } lobe_choice;
 
+/* How likely the path takes a lobe. One that may not go on is taken only where Eq. 16 stands alone. */
+static double lobe_chance(const path *p, rgb reflectance, bool goes_on, bool *ends) {
+    double chance = goes_on ? survival(p, reflectance) : 0;
+    bool needed = !samples_lights(p->context) && p->context->scene->light_count > 0 && !rgb_is_black(reflectance);
+    *ends = chance == 0;
+    return *ends && needed ? 1 : chance;
+}
+
 static lobe_choice choose_lobes(const path *p, const vertex *v) {
-    lobe_choice choice = {0, 0};
-    /* Without bounces left a diffuse ray could only find lights, which are sampled directly, unless Eq. 16 stands
-     * alone. */
-    bool diffuse_needed =
-        ambient_bounces_left(p) || (!samples_lights(p->context) && p->context->scene->light_count > 0);
-    double diffuse = diffuse_needed ? survival(p, v->ambient) : 0;
-    double specular =
-        v->shading.specular_lobe == GRAZE_LOBE_NONE || v->gloss_is_ambient ? 0 : survival(p, v->shading.specular);
-    double diffuse_share = diffuse * rgb_brightness(v->ambient),
-           specular_share = specular * rgb_brightness(v->shading.specular);
+    lobe_choice choice = {0};
+    double diffuse = lobe_chance(p, v->ambient, ambient_bounces_left(p), &choice.diffuse_ends), specular = 0;
+    if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
+        specular = survival(p, v->shading.specular);
+    else if (v->shading.specular_lobe == GRAZE_LOBE_GLOSSY)
+        specular = lobe_chance(p, v->shading.specular, !v->gloss_is_ambient, &choice.specular_ends);
+    choice.diffuse = diffuse;
+    choice.specular = specular;
     if (diffuse == 0 || specular == 0)
-        return (lobe_choice){diffuse, specular};
-    double chance = fmax(diffuse, specular), sum = diffuse_share + specular_share;
+        return choice;
+    double diffuse_share = diffuse * rgb_brightness(v->ambient);
+    double specular_share = specular * rgb_brightness(v->shading.specular);
     /* A lobe that matters little still gets a tenth, lest its rare samples carry huge weights. */
-    double share = fmin(fmax(diffuse_share / sum, 0.1), 0.9);
-    choice.diffuse = chance * share;
-    choice.specular = chance * (1 - share);
+    double share = fmin(fmax(diffuse_share / (diffuse_share + specular_share), 0.1), 0.9);
+    choice.diffuse = fmax(diffuse, specular) * share;
+    choice.specular = fmax(diffuse, specular) * (1 - share);
     return choice;
 }
 
@@ -278,6 +291,12 @@ static void add_direct_light(path *p, const vertex *v, const light_receiver *rec
             add_sampled_light(p, v, receiver, light, 1, choice);
 }
 
+/* Whether a reflection in this direction may meet lights that no light sample finds: all of them, or those seen in a
+ * mirror. */
+static bool is_search(const path *p, graze_lobe lobe) {
+    return lobe != GRAZE_LOBE_MIRROR && (!samples_lights(p->context) || p->context->scene->has_mirrors);
+}
+
 /* Draws the lobe to go on with and turns the path into it. False: the path ends here. */
 static bool reflect(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice, vec3 *direction) {
     if (choice.diffuse + choice.specular == 0)
@@ -288,30 +307,27 @@ static bool reflect(path *p, const vertex *v, const light_receiver *receiver, lo
     if (!diffuse && random[3] >= choice.diffuse + choice.specular)
         return false;
     graze_lobe lobe = diffuse ? GRAZE_LOBE_DIFFUSE : v->shading.specular_lobe;
-    double chance = diffuse ? choice.diffuse : choice.specular;
-    /* What is left of the number that chose the lobe is as random as it was. */
-    double rest = fmin((random[3] - (diffuse ? 0 : choice.diffuse)) / chance, 1 - DBL_EPSILON);
-    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, random[0], random[1], rest);
-    rgb direct = sample.weight, onward = sample.weight;
-    if (diffuse) {
-        /* The sampler's weight is the diffuse reflectance itself: cosine-weighted sampling is exact. */
-        onward = ambient_bounces_left(p) ? v->ambient : rgb_gray(0);
-        if (sample.density == 0)
-            return false;
-    }
-    if (rgb_is_black(direct) && rgb_is_black(onward))
+    bool ends = diffuse ? choice.diffuse_ends : choice.specular_ends;
+    double scale = 1 / (diffuse ? choice.diffuse : choice.specular);
+    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, random[0], random[1], random[2]);
+    /* The weight of a diffuse sample is its reflectance: for `light`s that of the diffuse part alone. */
+    rgb onward = ends ? rgb_gray(0) : diffuse ? v->ambient : sample.weight;
+    if (rgb_is_black(sample.weight) && rgb_is_black(onward))
         return false;
+    bool ambient = diffuse ? ambient_bounces_left(p) : !v->gloss_is_ambient;
     p->last = (scattering){
         .lobe = lobe,
-        .density = chance * sample.density,
-        .direct = rgb_scale(1 / chance, rgb_multiply(p->throughput, direct)),
-        .ambient = !diffuse || ambient_bounces_left(p),
+        .density = sample.density / scale,
+        .direct = rgb_scale(scale, rgb_multiply(p->throughput, sample.weight)),
+        .indirect = rgb_scale(scale, rgb_multiply(p->throughput, diffuse ? v->ambient : sample.weight)),
+        .ambient = ambient && (!ends || samples_glows_otherwise(p->context)),
         .receiver = *receiver,
     };
-    p->throughput = rgb_scale(1 / chance, rgb_multiply(p->throughput, onward));
+    p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));
     p->depth++;
     p->ambient_depth += diffuse;
     p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;
+    p->searching = p->searching || is_search(p, lobe);
     *direction = sample.direction;
     return true;
 }
@@ -347,24 +363,30 @@ static path path_start(const path_context *context, sampler *points) {
     return (path){.context = context, .sampler = points, .throughput = {1, 1, 1}};
 }
 
-rgb path_radiance(const path_context *context, const path_hit *first, sampler *points) {
+static path_sample path_end(const path *p, uint32_t first_group) {
+    return (path_sample){p->radiance, p->sampler->group != first_group, p->searching};
+}
+
+path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
     path p = path_start(context, points);
+    uint32_t first_group = points->group;
     vertex v;
     if (first->light >= 0)
         add_emission(&p, first);
     if (path_vertex(&p, first, &v))
         follow(&p, v);
-    return p.radiance;
+    return path_end(&p, first_group);
 }
 
 /* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
 #define SENSOR_HEIGHT 1e-4
 
-rgb path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
+path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
     path p = path_start(context, points);
+    uint32_t first_group = points->group;
     vertex v = {
         .point = vec3_add_scaled(point, SENSOR_HEIGHT, normal), .surface = -1, .shading = probe(normal, normal)};
     v.ambient = v.shading.diffuse;
     follow(&p, v);
-    return p.radiance;
+    return path_end(&p, first_group);
 }

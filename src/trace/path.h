@@ -25,12 +25,19 @@ typedef struct path_hit {
 /* Finds what the ray meets first, passing hidden back faces. */
 path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int from);
 
+typedef struct path_sample {
+    rgb radiance;
+    bool noisy;     /* random numbers were drawn: another sample may differ */
+    bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall
+                     */
+} path_sample;
+
 /* One sample of the radiance that arrives from `first` along the ray (or of irradiance there, by the settings'
  * quantity). Starts at the hit, so that all samples of a ray share it. Draws from the sampler only where the answer
  * depends on it. */
-rgb path_radiance(const path_context *, const path_hit *first, sampler *);
+path_sample path_radiance(const path_context *, const path_hit *first, sampler *);
 
 /* One sample of the irradiance on a sensor at `point`. */
-rgb path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *);
+path_sample path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *);
 
 #endif

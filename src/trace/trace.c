@@ -16,8 +16,17 @@ graze_trace_settings graze_trace_defaults(void) {
     };
 }
 
+/* Nobody follows a path further; and -N must exist. */
+#define REFLECTIONS 1000000
+
 graze_status graze_trace_check(const graze_trace_settings *s, const graze_report *report) {
     rgb av = s->ambient_value;
+    if (s->quantity < GRAZE_RADIANCE || s->quantity > GRAZE_IRRADIANCE)
+        return report_error(report, NULL, "unknown quantity %d", (int)s->quantity);
+    if (s->strategy < GRAZE_STRATEGY_MIS || s->strategy > GRAZE_STRATEGY_BRDF)
+        return report_error(report, NULL, "unknown strategy %d", (int)s->strategy);
+    if (s->reflection_limit < -REFLECTIONS || s->reflection_limit > REFLECTIONS)
+        return report_error(report, NULL, "the limit of reflections must be in %d .. %d", -REFLECTIONS, REFLECTIONS);
     if (s->ambient_bounces < 0)
         return report_error(report, NULL, "ambient bounces must not be negative");
     if (!(av.r >= 0 && av.g >= 0 && av.b >= 0 && isfinite(av.r + av.g + av.b)))
@@ -41,15 +50,11 @@ static bool is_finite(vec3 v) {
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
-/* Checks the ray and normalises its direction, safely for directions of any length. */
+/* Checks the ray and normalises its direction. */
 static bool prepare(const graze_ray *ray, vec3 *direction, double *limit) {
-    double scale = vec3_max_abs(ray->direction);
-    if (!is_finite(ray->origin) || !is_finite(ray->direction) || scale == 0 || !isfinite(ray->limit))
-        return false;
-    vec3 scaled = {ray->direction.x / scale, ray->direction.y / scale, ray->direction.z / scale};
-    *direction = vec3_normalize(scaled);
+    *direction = vec3_safe_normalize(ray->direction);
     *limit = ray->limit > 0 ? ray->limit : GEOMETRY_FAR;
-    return true;
+    return is_finite(ray->origin) && is_finite(ray->direction) && vec3_max_abs(*direction) > 0 && isfinite(ray->limit);
 }
 
 static void describe(const graze_scene *scene, const path_hit *found, graze_hit *hit) {
@@ -94,12 +99,11 @@ typedef struct request {
 
 static rgb sample_ray(void *user, sampler *points, estimate_luck *luck) {
     const request *r = user;
-    sampler before = *points;
-    rgb radiance = r->context.settings->quantity == GRAZE_IRRADIANCE
-                       ? path_irradiance(&r->context, r->origin, r->direction, points)
-                       : path_radiance(&r->context, &r->first, points);
-    *luck = points->group == before.group ? ESTIMATE_EXACT : ESTIMATE_NOISY;
-    return radiance;
+    path_sample sample = r->context.settings->quantity == GRAZE_IRRADIANCE
+                             ? path_irradiance(&r->context, r->origin, r->direction, points)
+                             : path_radiance(&r->context, &r->first, points);
+    *luck = sample.searching ? ESTIMATE_SEARCH : sample.noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
+    return sample.radiance;
 }
 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,

@@ -230,6 +230,12 @@ static void test_printing(void **state) {
     assert_string_equal(text, "-0");
     number_print(text, 17, -DBL_MAX);
     assert_string_equal(text, "-1.7976931348623157e+308");
+    assert_int_equal(number_print(text, 6, -INFINITY), 4);
+    assert_string_equal(text, "-inf");
+    assert_int_equal(number_print_exact(text, INFINITY), 3);
+    assert_string_equal(text, "inf");
+    number_print_exact(text, fabs(NAN));
+    assert_string_equal(text, "nan");
     uint64_t seed = 4;
     for (int i = 0; i < 100000; i++) {
         uint64_t bits = random_bits(&seed);
@@ -244,6 +250,14 @@ static void test_printing(void **state) {
         if (!text_to_real(text, &back) || bits_of(back) != bits)
             fail_msg("%a came back from '%s' as %a", value, text, back);
     }
+}
+
+static void test_floats(void **state) {
+    (void)state;
+    assert_true(number_to_float(0.1) == 0.1F && number_to_float(-FLT_MAX) == -FLT_MAX);
+    assert_true(number_to_float(3.4028235677973366e38) == FLT_MAX && number_to_float(1e39) == FLT_MAX);
+    assert_true(number_to_float(-1e300) == -FLT_MAX && number_to_float(-INFINITY) == -FLT_MAX);
+    assert_true(isnan(number_to_float(NAN)));
 }
 
 /* A directory with German manners in it, made by localedef; false where the system cannot. */
@@ -305,7 +319,8 @@ int main(void) {
         cmocka_unit_test(test_midpoints),      cmocka_unit_test(test_extremes),
         cmocka_unit_test(test_long_texts),     cmocka_unit_test(test_malformed_words),
         cmocka_unit_test(test_scan_stops),     cmocka_unit_test(test_integers),
-        cmocka_unit_test(test_printing),       cmocka_unit_test(test_comma_locale),
+        cmocka_unit_test(test_printing),       cmocka_unit_test(test_floats),
+        cmocka_unit_test(test_comma_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,6 +84,25 @@ static void test_vectors(void **state) {
     assert_true(vec3_max_abs(vec3_negate(b)) == 7);
 }
 
+static void test_safe_lengths(void **state) {
+    (void)state;
+    const double scales[] = {1, 0x1p-1074, 0x1p-1000, 0x1p1000, 0x1p1020};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        vec3 v = vec3_scale(scales[i], vec3_make(2, -3, 6));
+        assert_true(fabs(vec3_safe_length(v) / scales[i] - 7) <= 8 * DBL_EPSILON);
+        vec3 unit = vec3_safe_normalize(v);
+        assert_true(vec3_max_abs(vec3_subtract(unit, vec3_make(2 / 7., -3 / 7., 6 / 7.))) <= 2 * DBL_EPSILON);
+    }
+    vec3 diagonal = vec3_safe_normalize(vec3_make(DBL_MAX, DBL_MAX, -DBL_MAX));
+    assert_true(fabs(diagonal.x - sqrt(1 / 3.)) <= 2 * DBL_EPSILON && diagonal.z == -diagonal.x);
+    assert_true(vec3_safe_length(vec3_make(0, -0.0, 0)) == 0);
+    assert_true(vec3_max_abs(vec3_safe_normalize(vec3_make(0, -0.0, 0))) == 0);
+    const double bad[] = {NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        for (int others = 0; others < 2; others++)
+            assert_true(vec3_max_abs(vec3_safe_normalize(vec3_make(others, bad[i], 0))) == 0);
+}
+
 static void test_colours(void **state) {
     (void)state;
     rgb a = {1, 2, 3}, b = {4, 5, 6};
@@ -96,11 +115,9 @@ static void test_colours(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frame_of_random_axes),
-        cmocka_unit_test(test_frame_of_special_axes),
-        cmocka_unit_test(test_frame_there_and_back),
-        cmocka_unit_test(test_vectors),
-        cmocka_unit_test(test_colours),
+        cmocka_unit_test(test_frame_of_random_axes), cmocka_unit_test(test_frame_of_special_axes),
+        cmocka_unit_test(test_frame_there_and_back), cmocka_unit_test(test_vectors),
+        cmocka_unit_test(test_safe_lengths),         cmocka_unit_test(test_colours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -110,8 +110,8 @@ def time_of_start(command, empty):
 def main():
     os.environ["RAYPATH"] = os.environ["GRAZE_PEER_RAYPATH"]
     with tempfile.TemporaryDirectory() as folder:
-        bench("small", spheres(), folder, 20_000)
-        bench("mesh", mesh(), folder, 20_000)
+        bench("small", spheres(), folder, 10_000)
+        bench("mesh", mesh(), folder, 10_000)
 
 
 if __name__ == "__main__":

@@ -6,20 +6,6 @@
 
 #define ULP 0x1p-52
 
-static arena *memory;
-
-static int set_up(void **state) {
-    (void)state;
-    memory = arena_create();
-    return memory ? 0 : -1;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    arena_destroy(memory);
-    return 0;
-}
-
 /* Distance of a point to the surface as continued beyond its edges. */
 static long double residual(const shape *s, vec3 point) {
     exact3 p = exact(point);
@@ -46,15 +32,15 @@ static shape roll_curved(dice *d, int kind, double scale, vec3 at) {
     double r0 = scale * roll_between(d, 0.01, 1), r1 = scale * roll_between(d, 0.01, 1);
     switch (kind) {
     case 0:
-        return make_sphere(memory, p0, r0);
+        return make_sphere(p0, r0);
     case 1:
-        return make_cone(memory, p0, p1, r0, r0);
+        return make_cone(p0, p1, r0, r0);
     case 2:
-        return make_cone(memory, p0, p1, r0, r1);
+        return make_cone(p0, p1, r0, r1);
     case 3:
-        return make_cone(memory, p0, p1, r0, 0);
+        return make_cone(p0, p1, r0, 0);
     default:
-        return make_ring(memory, p0, vec3_subtract(p1, p0), fmin(r0, r1) / 2, fmax(r0, r1));
+        return make_ring(p0, vec3_subtract(p1, p0), fmin(r0, r1) / 2, fmax(r0, r1));
     }
 }
 
@@ -139,7 +125,7 @@ static void leaving_divides_the_origin_out(void **state) {
 
 static void flat_shapes_are_not_crossed_again(void **state) {
     (void)state;
-    shape ring = make_ring(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 1), 0, 1);
+    shape ring = make_ring(vec3_make(0, 0, 0), vec3_make(0, 0, 1), 0, 1);
     assert_int_equal(shape_cross(&ring, vec3_make(0.1, 0, 0), vec3_make(0.6, 0, 0.8), true).count, 0);
     assert_int_equal(shape_cross(&ring, vec3_make(0.1, 0, 0), vec3_make(0.6, 0, 0.8), false).count, 1);
     assert_int_equal(shape_cross(&ring, vec3_make(0.1, 0, 0), vec3_make(1, 0, 0), false).count, 0);
@@ -149,9 +135,9 @@ static void flat_shapes_are_not_crossed_again(void **state) {
 /* Along the axis, along a generator, through the apex: where the quadratic degenerates. */
 static void degenerate_lines(void **state) {
     (void)state;
-    shape cylinder = make_cone(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1);
+    shape cylinder = make_cone(vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1);
     assert_int_equal(shape_cross(&cylinder, vec3_make(0.5, 0, -1), vec3_make(0, 0, 1), false).count, 0);
-    shape cone = make_cone(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 1), 0, 1);
+    shape cone = make_cone(vec3_make(0, 0, 0), vec3_make(0, 0, 1), 0, 1);
     shape_crossings c = shape_cross(&cone, vec3_make(0.5, 0, -1), vec3_make(0, 0, 1), false);
     assert_int_equal(c.count, 1);
     assert_true(fabs(c.distance[0] - 1.5) < 4 * ULP);
@@ -165,7 +151,7 @@ static void degenerate_lines(void **state) {
     c = shape_cross(&cone, vec3_make(0, 0, -1), vec3_make(0, 0, 1), false);
     for (int i = 0; i < c.count; i++)
         assert_true(fabs(c.distance[i] - 1) < 4 * ULP);
-    shape sphere = make_sphere(memory, vec3_make(0, 0, 0), 1);
+    shape sphere = make_sphere(vec3_make(0, 0, 0), 1);
     c = shape_cross(&sphere, vec3_make(0, 0, 0), vec3_make(0, 0, 1), false);
     assert_int_equal(c.count, 2);
     assert_true(c.distance[0] == -1 && c.distance[1] == 1);

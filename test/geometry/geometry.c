@@ -4,20 +4,6 @@
 #include "geometry/geometry.h"
 #include "geometry/oracle.h"
 
-static arena *memory;
-
-static int set_up(void **state) {
-    (void)state;
-    memory = arena_create();
-    return memory ? 0 : -1;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    arena_destroy(memory);
-    return 0;
-}
-
 static geometry *build(const shape *shapes, size_t count, int threads) {
     geometry *g;
     messages m = {0};
@@ -28,11 +14,11 @@ static geometry *build(const shape *shapes, size_t count, int threads) {
 }
 
 static shape quadrangle(vec3 a, vec3 b, vec3 c, vec3 d) {
-    return make_polygon(memory, 4, (vec3[]){a, b, c, d});
+    return make_polygon(4, (vec3[]){a, b, c, d});
 }
 
 static shape triangle(vec3 a, vec3 b, vec3 c) {
-    return make_polygon(memory, 3, (vec3[]){a, b, c});
+    return make_polygon(3, (vec3[]){a, b, c});
 }
 
 static geometry_ray ray_from(vec3 origin, vec3 direction, int from) {
@@ -47,9 +33,6 @@ static void empty_scene(void **state) {
     assert_false(geometry_intersect(g, &ray, &hit));
     assert_int_equal(hit.surface, -1);
     assert_false(geometry_occluded(g, &ray, -1));
-    vec3 lower, upper;
-    geometry_bounds(g, &lower, &upper);
-    assert_true(lower.x > upper.x && lower.y > upper.y && lower.z > upper.z);
     geometry_destroy(g);
     geometry_destroy(NULL);
 }
@@ -71,20 +54,20 @@ static void roll_zoo(dice *d, shape *shapes, double scale, vec3 at) {
             else
                 v[k] = vec3_add_scaled(vec3_add_scaled(origin, 0.5 * scale * x[k], f.x), 0.5 * scale * y[k], f.y);
         }
-        shapes[i] = make_polygon(memory, n, v);
+        shapes[i] = make_polygon(n, v);
     }
     for (int i = 0; i < ZOO_CURVED; i++) {
         vec3 p0 = vec3_add(at, roll_in_cube(d, scale)), p1 = vec3_add(p0, roll_in_cube(d, 0.5 * scale));
         double r = scale * roll_between(d, 0.01, 0.3);
         shape *s = &shapes[ZOO_POLYGONS + i];
         if (i % 4 == 0)
-            *s = make_sphere(memory, p0, r);
+            *s = make_sphere(p0, r);
         else if (i % 4 == 1)
-            *s = make_cone(memory, p0, p1, r, r);
+            *s = make_cone(p0, p1, r, r);
         else if (i % 4 == 2)
-            *s = make_cone(memory, p0, p1, r, i % 8 == 2 ? 0 : 2 * r);
+            *s = make_cone(p0, p1, r, i % 8 == 2 ? 0 : 2 * r);
         else
-            *s = make_ring(memory, p0, vec3_subtract(p1, p0), 0.3 * r, 1.5 * r);
+            *s = make_ring(p0, vec3_subtract(p1, p0), 0.3 * r, 1.5 * r);
         s->inward = i % 4 != 3 && i % 16 >= 8;
     }
 }
@@ -120,6 +103,18 @@ static int compare_with_oracle(const geometry *g, const shape *shapes, const geo
     return 1;
 }
 
+/* The zoo's longest edge along an axis. */
+static double zoo_extent(const shape *shapes) {
+    vec3 lower = {INFINITY, INFINITY, INFINITY}, upper = vec3_negate(lower);
+    for (int i = 0; i < ZOO; i++) {
+        vec3 a, b;
+        shape_bounds(&shapes[i], &a, &b);
+        lower = vec3_make(fmin(lower.x, a.x), fmin(lower.y, a.y), fmin(lower.z, a.z));
+        upper = vec3_make(fmax(upper.x, b.x), fmax(upper.y, b.y), fmax(upper.z, b.z));
+    }
+    return vec3_max_abs(vec3_subtract(upper, lower));
+}
+
 static void same_as_brute_force(void **state) {
     (void)state;
     dice d = {11};
@@ -131,10 +126,7 @@ static void same_as_brute_force(void **state) {
         shape shapes[ZOO];
         roll_zoo(&d, shapes, scale, at);
         geometry *g = build(shapes, ZOO, 1 + scene % 2);
-        vec3 lower, upper;
-        geometry_bounds(g, &lower, &upper);
-        vec3 extent = vec3_subtract(upper, lower);
-        double near = 1e-6 * fmin(1, vec3_max_abs(extent)), size = vec3_max_abs(at) + 4 * scale;
+        double near = 1e-6 * fmin(1, zoo_extent(shapes)), size = vec3_max_abs(at) + 4 * scale;
         for (int i = 0; i < 1500; i++) {
             double from_afar = i % 3 ? 2 : 1000;
             vec3 origin = vec3_add(at, roll_in_cube(&d, from_afar * scale));
@@ -389,10 +381,9 @@ static void curved_shapes_up_to_their_bounds(void **state) {
     for (int i = 0; i < 2000; i++) {
         vec3 at = roll_in_cube(&d, 10);
         double r = roll_between(&d, 0.01, 1);
-        shape shapes[] = {make_sphere(memory, at, r), make_cone(memory, at, vec3_add(at, vec3_make(0, 0, 1)), r, r),
-                          make_ring(memory, at, vec3_make(0, 1, 0), 0, r),
-                          make_sphere(memory, vec3_make(0, 0, 0), 1e-3),
-                          make_sphere(memory, vec3_make(-30, -30, -30), 1)};
+        shape shapes[] = {make_sphere(at, r), make_cone(at, vec3_add(at, vec3_make(0, 0, 1)), r, r),
+                          make_ring(at, vec3_make(0, 1, 0), 0, r), make_sphere(vec3_make(0, 0, 0), 1e-3),
+                          make_sphere(vec3_make(-30, -30, -30), 1)};
         geometry *g = build(shapes, 5, 1);
         for (int k = 0; k < 60; k++) {
             int which = k % 3;
@@ -447,14 +438,17 @@ static void coincident_faces(void **state) {
     geometry_destroy(g);
 }
 
-/* A sheet of two polygons back to back shows each side its own; shadows end before what coincides with the target. */
+/* A sheet of two polygons back to back shows each side its own, though both shine; shadows end before what coincides
+ * with the target. */
 static void sheet_of_two_sides(void **state) {
     (void)state;
     vec3 a = {0, 0, 1}, b = {1, 0, 1}, c = {1, 1, 1.5}, e = {0, 1, 1.5};
-    for (int order = 0; order < 2; order++) {
+    for (int kind = 0; kind < 4; kind++) {
+        int order = kind % 2;
         shape shapes[2];
         shapes[order] = quadrangle(a, b, c, e);
         shapes[1 - order] = quadrangle(e, c, b, a);
+        shapes[0].shines = shapes[1].shines = kind >= 2;
         geometry *g = build(shapes, 2, 1);
         dice d = {3};
         for (int i = 0; i < 2000; i++) {
@@ -475,6 +469,98 @@ static void sheet_of_two_sides(void **state) {
             assert_false(geometry_occluded(g, &ray, -1));
         }
         geometry_destroy(g);
+    }
+}
+
+/* In a tilted plane: a ceiling with two lamps that overlap, all facing -z of the frame. */
+typedef struct lit_ceiling {
+    shape shapes[3];
+    int ceiling, square, disk; /* their places among the shapes */
+    frame axes;
+} lit_ceiling;
+
+#define CEILING_HEIGHT 2.7
+
+static vec3 on_ceiling(const lit_ceiling *c, double x, double y) {
+    return frame_to_world(&c->axes, vec3_make(x, y, CEILING_HEIGHT));
+}
+
+static shape ceiling_square(const lit_ceiling *c, double half) {
+    return quadrangle(on_ceiling(c, -half, -half), on_ceiling(c, -half, half), on_ceiling(c, half, half),
+                      on_ceiling(c, half, -half));
+}
+
+static lit_ceiling make_lit_ceiling(int order) {
+    lit_ceiling c = {.ceiling = order % 3, .axes = frame_around(vec3_normalize(vec3_make(0.3, -0.4, 0.86)))};
+    c.square = (c.ceiling + 1 + order / 3) % 3;
+    c.disk = (c.ceiling + 2 - order / 3) % 3;
+    c.shapes[c.ceiling] = ceiling_square(&c, 4);
+    c.shapes[c.square] = ceiling_square(&c, 1);
+    c.shapes[c.disk] = make_ring(on_ceiling(&c, 1, 0), vec3_negate(c.axes.z), 0, 0.8);
+    c.shapes[c.square].shines = c.shapes[c.disk].shines = true;
+    return c;
+}
+
+/* A lamp in the plane of the ceiling is hit and not the ceiling, and where lamps overlap one of them, whatever their
+ * order; and what is hit is what a shadow ray finds free, so that light is counted once however it is found. */
+static void lamps_in_the_ceiling(void **state) {
+    (void)state;
+    for (int order = 0; order < 6; order++) {
+        lit_ceiling c = make_lit_ceiling(order);
+        geometry *g = build(c.shapes, 3, 1);
+        dice d = {91};
+        int hits[3] = {0};
+        for (int i = 0; i < 5000; i++) {
+            double x = roll_between(&d, -2, 2), y = roll_between(&d, -2, 2);
+            bool in_square = fabs(x) < 1 && fabs(y) < 1, in_disk = hypot(x - 1, y) < 0.8;
+            int expected = in_square && in_disk ? (c.square > c.disk ? c.square : c.disk)
+                           : in_square          ? c.square
+                           : in_disk            ? c.disk
+                                                : c.ceiling;
+            vec3 target = on_ceiling(&c, x, y);
+            vec3 origin = frame_to_world(&c.axes, vec3_make(roll_between(&d, -9, 9), roll_between(&d, -9, 9), 0));
+            geometry_ray ray = ray_from(origin, vec3_subtract(target, origin), -1);
+            geometry_hit hit;
+            assert_true(geometry_intersect(g, &ray, &hit));
+            assert_int_equal(hit.surface, expected);
+            hits[expected]++;
+            ray.far = vec3_length(vec3_subtract(target, origin));
+            if (in_square)
+                assert_true(geometry_occluded(g, &ray, c.square) == (expected != c.square));
+            if (in_disk)
+                assert_true(geometry_occluded(g, &ray, c.disk) == (expected != c.disk));
+            assert_true(geometry_occluded(g, &ray, c.ceiling) == (expected != c.ceiling));
+            assert_false(geometry_occluded(g, &ray, -1));
+        }
+        assert_true(hits[0] > 100 && hits[1] > 100 && hits[2] > 100);
+        geometry_destroy(g);
+    }
+}
+
+/* A lamp that shines counts for more than the ceiling only where both coincide. */
+static void lamps_behind_the_ceiling(void **state) {
+    (void)state;
+    for (int order = 0; order < 2; order++) {
+        shape shapes[2];
+        shape *lamp = &shapes[order], *ceiling = &shapes[1 - order];
+        *ceiling = quadrangle(vec3_make(-4, -4, 1), vec3_make(-4, 4, 1), vec3_make(4, 4, 1), vec3_make(4, -4, 1));
+        const double above[] = {-1e-5, -5e-7, 5e-7, 1e-5};
+        for (int i = 0; i < 4; i++) {
+            *lamp = make_ring(vec3_make(0, 0, 1 + above[i]), vec3_make(0, 0, -1), 0, 1);
+            lamp->shines = true;
+            geometry *g = build(shapes, 2, 1);
+            geometry_ray ray = ray_from(vec3_make(0.1, 0.2, 0), vec3_make(0, 0, 1), -1);
+            geometry_hit hit;
+            assert_true(geometry_intersect(g, &ray, &hit));
+            assert_int_equal(hit.surface, i < 3 ? order : 1 - order);
+            ray.far = 1 + above[i];
+            assert_true(geometry_occluded(g, &ray, order) == (i == 3));
+            /* Its back does not shine. */
+            ray = ray_from(vec3_make(0.1, 0.2, 2), vec3_make(0, 0, -1), -1);
+            assert_true(geometry_intersect(g, &ray, &hit));
+            assert_int_equal(hit.surface, i < 2 ? 1 - order : order);
+            geometry_destroy(g);
+        }
     }
 }
 
@@ -522,7 +608,7 @@ static void neighbours_do_not_shadow(void **state) {
 /* From inside of a sphere the ray that leaves it hits it again; from outside it never does. */
 static void leaving_a_sphere(void **state) {
     (void)state;
-    shape s = make_sphere(memory, vec3_make(10, 20, 30), 2.5);
+    shape s = make_sphere(vec3_make(10, 20, 30), 2.5);
     geometry *g = build(&s, 1, 1);
     dice d = {21};
     for (int i = 0; i < 20000; i++) {
@@ -545,7 +631,7 @@ static void leaving_a_sphere(void **state) {
 static void far_end(void **state) {
     (void)state;
     shape shapes[] = {quadrangle(vec3_make(-1, -1, 2), vec3_make(1, -1, 2), vec3_make(1, 1, 2), vec3_make(-1, 1, 2)),
-                      make_sphere(memory, vec3_make(0, 0, 5), 1)};
+                      make_sphere(vec3_make(0, 0, 5), 1)};
     geometry *g = build(shapes, 2, 1);
     geometry_ray ray = ray_from(vec3_make(0.1, 0, 0), vec3_make(0, 0, 1), -1);
     geometry_hit hit;
@@ -566,7 +652,7 @@ static void far_end(void **state) {
 
 static void rays_that_are_none_hit_nothing(void **state) {
     (void)state;
-    shape s = make_sphere(memory, vec3_make(0, 0, 0), 1);
+    shape s = make_sphere(vec3_make(0, 0, 0), 1);
     geometry *g = build(&s, 1, 1);
     const double bad[] = {NAN, INFINITY, -INFINITY, 1e308};
     for (int i = 0; i < 4; i++)
@@ -647,6 +733,8 @@ int main(void) {
         cmocka_unit_test(curved_shapes_up_to_their_bounds),
         cmocka_unit_test(coincident_faces),
         cmocka_unit_test(sheet_of_two_sides),
+        cmocka_unit_test(lamps_in_the_ceiling),
+        cmocka_unit_test(lamps_behind_the_ceiling),
         cmocka_unit_test(neighbours_do_not_shadow),
         cmocka_unit_test(leaving_a_sphere),
         cmocka_unit_test(far_end),

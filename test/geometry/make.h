@@ -14,6 +14,21 @@
 #include "base/angle.h"
 #include "geometry/shape.h"
 
+/* What shapes are made in: a fixture of the whole group of tests. */
+static arena *memory;
+
+static inline int set_up(void **state) {
+    (void)state;
+    memory = arena_create();
+    return memory ? 0 : -1;
+}
+
+static inline int tear_down(void **state) {
+    (void)state;
+    arena_destroy(memory);
+    return 0;
+}
+
 /* Xorshift64*: the same numbers everywhere. */
 typedef struct dice {
     uint64_t state;
@@ -55,8 +70,8 @@ static inline void messages_write(void *user, graze_severity severity, const cha
     strncpy(m->last, text, sizeof m->last - 1);
 }
 
-static inline graze_status try_shape(shape *s, bool *degenerate, messages *m, arena *memory, rad_type type,
-                                     uint32_t count, const double *reals) {
+static inline graze_status try_shape(shape *s, bool *degenerate, messages *m, rad_type type, uint32_t count,
+                                     const double *reals) {
     static const place where = {.file = "test.rad", .line = 1, .column = 1};
     rad_primitive p = {
         .type = type, .modifier = RAD_VOID, .id = "it", .real_count = count, .reals = reals, .where = &where};
@@ -66,18 +81,18 @@ static inline graze_status try_shape(shape *s, bool *degenerate, messages *m, ar
 }
 
 /* A shape that must come out without a word. */
-static inline shape make_shape(arena *memory, rad_type type, uint32_t count, const double *reals) {
+static inline shape make_shape(rad_type type, uint32_t count, const double *reals) {
     shape s;
     bool degenerate;
     messages m;
-    assert_int_equal(try_shape(&s, &degenerate, &m, memory, type, count, reals), GRAZE_OK);
+    assert_int_equal(try_shape(&s, &degenerate, &m, type, count, reals), GRAZE_OK);
     if (m.warnings)
         fail_msg("%s", m.last);
     assert_false(degenerate);
     return s;
 }
 
-static inline shape make_polygon(arena *memory, uint32_t count, const vec3 *vertices) {
+static inline shape make_polygon(uint32_t count, const vec3 *vertices) {
     double *reals = malloc(3 * count * sizeof *reals);
     assert_non_null(reals);
     for (uint32_t i = 0; i < count; i++) {
@@ -85,22 +100,21 @@ static inline shape make_polygon(arena *memory, uint32_t count, const vec3 *vert
         reals[3 * i + 1] = vertices[i].y;
         reals[3 * i + 2] = vertices[i].z;
     }
-    shape s = make_shape(memory, RAD_POLYGON, 3 * count, reals);
+    shape s = make_shape(RAD_POLYGON, 3 * count, reals);
     free(reals);
     return s;
 }
 
-static inline shape make_sphere(arena *memory, vec3 center, double radius) {
-    return make_shape(memory, RAD_SPHERE, 4, (double[]){center.x, center.y, center.z, radius});
+static inline shape make_sphere(vec3 center, double radius) {
+    return make_shape(RAD_SPHERE, 4, (double[]){center.x, center.y, center.z, radius});
 }
 
-static inline shape make_cone(arena *memory, vec3 p0, vec3 p1, double r0, double r1) {
-    return make_shape(memory, RAD_CONE, 8, (double[]){p0.x, p0.y, p0.z, p1.x, p1.y, p1.z, r0, r1});
+static inline shape make_cone(vec3 p0, vec3 p1, double r0, double r1) {
+    return make_shape(RAD_CONE, 8, (double[]){p0.x, p0.y, p0.z, p1.x, p1.y, p1.z, r0, r1});
 }
 
-static inline shape make_ring(arena *memory, vec3 center, vec3 normal, double r0, double r1) {
-    return make_shape(memory, RAD_RING, 8,
-                      (double[]){center.x, center.y, center.z, normal.x, normal.y, normal.z, r0, r1});
+static inline shape make_ring(vec3 center, vec3 normal, double r0, double r1) {
+    return make_shape(RAD_RING, 8, (double[]){center.x, center.y, center.z, normal.x, normal.y, normal.z, r0, r1});
 }
 
 #define OUTLINE_LIMIT 256

@@ -1,20 +1,6 @@
 /* Shapes: arguments, areas, bounds, tessellation. */
 #include "geometry/make.h"
 
-static arena *memory;
-
-static int set_up(void **state) {
-    (void)state;
-    memory = arena_create();
-    return memory ? 0 : -1;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    arena_destroy(memory);
-    return 0;
-}
-
 static void assert_near(double a, double b, double tolerance) {
     if (!(fabs(a - b) <= tolerance))
         fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
@@ -91,7 +77,7 @@ static void arguments_are_checked(void **state) {
         shape s;
         bool degenerate;
         messages m;
-        graze_status status = try_shape(&s, &degenerate, &m, memory, c->type, c->count, c->reals);
+        graze_status status = try_shape(&s, &degenerate, &m, c->type, c->count, c->reals);
         if (status != c->status || m.errors != (status != GRAZE_OK))
             fail_msg("case %zu: status %d, %d errors", i, status, m.errors);
         if (status != GRAZE_OK)
@@ -104,16 +90,16 @@ static void arguments_are_checked(void **state) {
 
 static void equal_radii_make_a_cylinder(void **state) {
     (void)state;
-    shape s = make_cone(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1 + 5e-7);
+    shape s = make_cone(vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1 + 5e-7);
     assert_true(s.cone.r0 == s.cone.r1);
-    s = make_cone(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1 + 2e-6);
+    s = make_cone(vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1 + 2e-6);
     assert_true(s.cone.r0 < s.cone.r1);
 }
 
 static void closing_vertex_is_dropped(void **state) {
     (void)state;
     vec3 v[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1e-7}};
-    shape s = make_polygon(memory, 5, v);
+    shape s = make_polygon(5, v);
     assert_int_equal(s.polygon.vertex_count, 4);
     assert_int_equal(s.polygon.triangle_count, 2);
     assert_vector(s.polygon.normal, 0, 0, 1);
@@ -121,21 +107,21 @@ static void closing_vertex_is_dropped(void **state) {
 
 static void normals_and_areas(void **state) {
     (void)state;
-    shape cylinder = make_cone(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1);
+    shape cylinder = make_cone(vec3_make(0, 0, 0), vec3_make(0, 0, 2), 1, 1);
     assert_vector(shape_normal(&cylinder, vec3_make(0.6, 0.8, 1)), 0.6, 0.8, 0);
     assert_near(shape_area(&cylinder), 4 * PI, 1e-14);
     cylinder.inward = true;
     assert_vector(shape_normal(&cylinder, vec3_make(0.6, 0.8, 1)), -0.6, -0.8, 0);
-    shape cone = make_cone(memory, vec3_make(0, 0, 0), vec3_make(0, 0, 1), 1, 0);
+    shape cone = make_cone(vec3_make(0, 0, 0), vec3_make(0, 0, 1), 1, 0);
     assert_vector(shape_normal(&cone, vec3_make(0.5, 0, 0.5)), sqrt(0.5), 0, sqrt(0.5));
     assert_vector(shape_normal(&cone, vec3_make(0, 0, 1)), 0, 0, 1);
     assert_near(shape_area(&cone), PI * sqrt(2), 1e-14);
-    shape cup = make_cone(memory, vec3_make(0, 0, 1), vec3_make(0, 0, 0), 0, 1);
+    shape cup = make_cone(vec3_make(0, 0, 1), vec3_make(0, 0, 0), 0, 1);
     assert_vector(shape_normal(&cup, vec3_make(0.5, 0, 0.5)), sqrt(0.5), 0, sqrt(0.5));
-    shape sphere = make_sphere(memory, vec3_make(1, 2, 3), 2);
+    shape sphere = make_sphere(vec3_make(1, 2, 3), 2);
     assert_vector(shape_normal(&sphere, vec3_make(1, 2, 5)), 0, 0, 1);
     assert_near(shape_area(&sphere), 16 * PI, 1e-13);
-    shape ring = make_ring(memory, vec3_make(0, 0, 0), vec3_make(0, -3, 0), 3, 1);
+    shape ring = make_ring(vec3_make(0, 0, 0), vec3_make(0, -3, 0), 3, 1);
     assert_vector(shape_normal(&ring, vec3_make(2, 0, 0)), 0, -1, 0);
     assert_near(shape_area(&ring), 8 * PI, 1e-13);
 }
@@ -146,8 +132,7 @@ static void bounds_hold_the_surface(void **state) {
     for (int i = 0; i < 200; i++) {
         vec3 p0 = roll_in_cube(&d, 3), p1 = roll_in_cube(&d, 3);
         double r0 = roll(&d) + 0.01, r1 = i & 1 ? 0 : roll(&d);
-        shape shapes[] = {make_cone(memory, p0, p1, r0, r1), make_ring(memory, p0, p1, 0, r0),
-                          make_sphere(memory, p0, r0)};
+        shape shapes[] = {make_cone(p0, p1, r0, r1), make_ring(p0, p1, 0, r0), make_sphere(p0, r0)};
         for (int k = 0; k < 3; k++) {
             vec3 lower, upper, reached_lower = {9, 9, 9}, reached_upper = {-9, -9, -9};
             shape_bounds(&shapes[k], &lower, &upper);
@@ -218,7 +203,7 @@ static void check_triangles(dice *d, uint32_t n, const double *x, const double *
     vec3 v[OUTLINE_LIMIT];
     for (uint32_t i = 0; i < n; i++)
         v[i] = lay(&f, origin, scale, x[i], y[i]);
-    shape s = make_polygon(memory, n, v);
+    shape s = make_polygon(n, v);
     double slack = 1e-14 * offset / scale + 1e-12;
     assert_near(s.polygon.area / (scale * scale), area, 10 * slack);
     assert_near(vec3_dot(s.polygon.normal, f.z), 1, slack);
@@ -310,7 +295,7 @@ static void square_with_square_hole(void **state) {
     (void)state;
     vec3 v[] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                 {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
-    shape s = make_polygon(memory, 10, v);
+    shape s = make_polygon(10, v);
     assert_near(s.polygon.area, 12, 1e-14);
     assert_int_equal(triangles_around(&s, vec3_make(2, 2.1, 0)), 0);
     assert_int_equal(triangles_around(&s, vec3_make(0.5, 2.1, 0)), 1);

@@ -1,29 +1,13 @@
 #!/bin/bash
 # Pictures between Graze and real Radiance: each reads what the other writes. TAP. Wants GRAZE_PEER_BIN, GRAZE_PEER_RAYPATH
 # and the archives below BUILD.
-set -u
+source "$(dirname "$0")/../support/tap.sh"
 build=$(cd "${BUILD:?}" && pwd) || exit 2
-temporary=$(mktemp -d) || exit 2
-trap 'rm -rf "$temporary"' EXIT
-"${CC:-cc}" -std=c11 -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc ${EXTRA_CFLAGS:-} -o "$temporary/pictures" test/peer/pictures.c \
+"${CC:-cc}" -std=c11 -D_POSIX_C_SOURCE=200809L -Iinclude -Isrc ${EXTRA_CFLAGS:-} -o "$work/pictures" test/peer/pictures.c \
     "$build/libimage.a" "$build/libbase.a" -lOpenEXRCore -ldl -lm -pthread || exit 2
-cd "$temporary" || exit 2
-export PATH="$temporary:${GRAZE_PEER_BIN:?}:$PATH" RAYPATH=".:${GRAZE_PEER_RAYPATH:-}" LC_ALL=C
+cd "$work" || exit 2
+export PATH="$work:${GRAZE_PEER_BIN:?}:$PATH" RAYPATH=".:${GRAZE_PEER_RAYPATH:-}" LC_ALL=C
 set -o pipefail
-number=0
-
-# check DESCRIPTION COMMAND...
-check() {
-    local description=$1
-    shift
-    number=$((number + 1))
-    if "$@" >log 2>&1; then
-        echo "ok $number - $description"
-    else
-        echo "not ok $number - $description"
-        head -n 20 log | sed 's/^/# /'
-    fi
-}
 
 # Radiance's decoded floats of a picture are ours, bit for bit.
 same_floats() {
@@ -81,4 +65,4 @@ pflip -h -v a64.hdr >hv.hdr
 for picture in a64 h v hv; do
     check "scanlines that are columns: $picture" same_places $picture.hdr protate
 done
-echo "1..$number"
+plan

@@ -1,25 +1,10 @@
 #!/bin/bash
 # Radiance's own programs before and after Graze's in pipes, and pictures and views passed between them. TAP.
-set -u
-temporary=$(mktemp -d) || exit 2
-trap 'rm -rf "$temporary"' EXIT
-cd "$temporary" || exit 2
-export PATH="${BIN:?}:${GRAZE_PEER_BIN:?}:$PATH" RAYPATH=".:${GRAZE_PEER_RAYPATH:?}" LC_ALL=C
+source "$(dirname "$0")/../support/tap.sh"
+cd "$work" || exit 2
+export PATH="$BIN:${GRAZE_PEER_BIN:?}:$PATH" RAYPATH=".:${GRAZE_PEER_RAYPATH:?}" LC_ALL=C
 set -o pipefail
-number=0
 
-# check DESCRIPTION FUNCTION...: the function must succeed without a word on standard error; what it says is shown else.
-check() {
-    local description=$1
-    shift
-    number=$((number + 1))
-    if "$@" >log 2>errors && [ ! -s errors ]; then
-        echo "ok $number - $description"
-    else
-        echo "not ok $number - $description"
-        cat errors log | head -n 20 | sed 's/^/# /'
-    fi
-}
 # same A B: two texts are equal, and not empty.
 same() { [ -n "$1" ] && [ "$1" = "$2" ] && return; diff <(printf "%s\n" "$1") <(printf "%s\n" "$2"); return 1; }
 # close A B: numbers equal within RGBE's steps (a part in 128, half a step of each of two roundings).
@@ -89,7 +74,7 @@ double_precision() { same "$(rcalc -od -if6 -e '$1=$1;$2=$2;$3=$3;$4=$4;$5=$5;$6
 defaults_of_rtrace() {
     # Mist and photon maps, which Graze has not.
     rtrace -defaults | sed -e 's/#.*//' -e '/^-m[eags] /d' -e '/^-am /d' >rtrace.options
-    same "$(gtrace -h @rtrace.options glows.rad <rays.txt)" "$(gtrace -h glows.rad <rays.txt)"
+    same "$(gtrace @rtrace.options -h- glows.rad <rays.txt)" "$(gtrace -h glows.rad <rays.txt)"
 }
 
 # Pictures pixel by pixel as rpict makes them with one ray through each pixel's middle.
@@ -119,23 +104,23 @@ lit_picture() {
 }
 no_oconv() { same "$(echo '0 -5 .1 0 1 0' | gtrace -h -os '!xform -t 0 0 .1 glows.rad')" "$(echo '0 -5 .1 0 1 0' | rtrace -h -w -os '!oconv "!xform -t 0 0 .1 glows.rad"')"; }
 
-check "vwrays | gtrace -ffc makes a picture of vwrays' size" header_is_a_picture
-check "its pixels are what pvalue makes of the floats" bytes_like_radiance
-check "pfilt averages it" filtered
-check "vwrays | gtrace | pfilt | pvalue in one pipe" one_pipe
-check "rays by rcalc, ASCII and float; answers back into rcalc" rays_by_rcalc
-check "getinfo - strips the header of binary answers" header_stripped
-check "the header names format, components and byte order" header_fields
-check "ASCII answers are rtrace's to the letter" same_numbers_as_rtrace
-check "doubles in and out" double_precision
-check "what rtrace -defaults prints are options" defaults_of_rtrace
+quiet "vwrays | gtrace -ffc makes a picture of vwrays' size" header_is_a_picture
+quiet "its pixels are what pvalue makes of the floats" bytes_like_radiance
+quiet "pfilt averages it" filtered
+quiet "vwrays | gtrace | pfilt | pvalue in one pipe" one_pipe
+quiet "rays by rcalc, ASCII and float; answers back into rcalc" rays_by_rcalc
+quiet "getinfo - strips the header of binary answers" header_stripped
+quiet "the header names format, components and byte order" header_fields
+quiet "ASCII answers are rtrace's to the letter" same_numbers_as_rtrace
+quiet "doubles in and out" double_precision
+quiet "what rtrace -defaults prints are options" defaults_of_rtrace
 for v in "${views[@]}"; do
-    check "gpict's pixels are rpict's: ${v:0:4}" picture_like_rpict "$v"
-    check "vwrays reads the picture's VIEW= line: ${v:0:4}" view_read_back
-    check "gpict -vf of a picture by rpict: ${v:0:4}" view_of_radiance
-    check "gpict -vf of a view file: ${v:0:4}" view_of_a_file "$v"
-    check "vwrays -vf picture | gtrace gives the picture: ${v:0:4}" rays_of_the_picture
+    quiet "gpict's pixels are rpict's: ${v:0:4}" picture_like_rpict "$v"
+    quiet "vwrays reads the picture's VIEW= line: ${v:0:4}" view_read_back
+    quiet "gpict -vf of a picture by rpict: ${v:0:4}" view_of_radiance
+    quiet "gpict -vf of a view file: ${v:0:4}" view_of_a_file "$v"
+    quiet "vwrays -vf picture | gtrace gives the picture: ${v:0:4}" rays_of_the_picture
 done
-check "pfilt and pcomb over a lit picture" lit_picture
-check "a !command as scene" no_oconv
-echo "1..$number"
+quiet "pfilt and pcomb over a lit picture" lit_picture
+quiet "a !command as scene" no_oconv
+plan

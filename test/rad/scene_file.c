@@ -185,6 +185,8 @@ static void reports_errors_with_places(void **state) {
         {"void light a 0 0 3 1 1e 1", "\"1e\" is not a number"},
         {"void light a 0 0 999999999 1 1", "scene.rad:1:1: ends before the primitive's last real argument"},
         {"void light a 999999999 1 1", "scene.rad:1:1: ends before the primitive's last string argument"},
+        {"void light a 0 0 00000000000000000000000000000003 1 1 1",
+         "\"00000000000000000000000000000003\" is too long for a number of real arguments"},
         {"void light a 0 0 999999999999 1 1", "\"999999999999\" is not a number of real arguments"},
         {"void light a 999999999999 1 1", "\"999999999999\" is not a number of string arguments"},
         {"void", "scene.rad:1:1: ends before the primitive's type"},

@@ -28,6 +28,14 @@ check() {
     result $? "$description" "$work/check.log"
 }
 
+# quiet DESCRIPTION COMMAND...: the command must succeed without a word on standard error.
+quiet() {
+    local description=$1
+    shift
+    "$@" >"$work/check.log" 2>"$work/err" && [ ! -s "$work/err" ]
+    result $? "$description" "$work/err" "$work/check.log"
+}
+
 # fails DESCRIPTION STATUS TEXT INPUT COMMAND...: the command, fed the input (as printf %b has it), must end with the status and
 # say the text on standard error. What it printed is left in $work/out.
 fails() {

@@ -174,6 +174,95 @@ static void strategies_agree_on_a_glossy_floor(void **state) {
     }
 }
 
+/* The strategies differ in how they find light, not in what counts: whatever ends paths or changes lobes. */
+static void strategies_agree_whatever_the_settings(void **state) {
+    (void)state;
+    const char *text = "void metal2 m 4 1 1 0 . 0 6 .6 .6 .6 .5 .2 .3\n"
+                       "void plastic w 0 0 5 .5 .5 .5 .05 .15\n"
+                       "m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0\n"
+                       "w polygon wall 0 0 12 -2 2 0 2 2 0 2 2 3 -2 2 3\n"
+                       "w polygon left 0 0 12 -2 -2 0 -2 2 0 -2 2 3 -2 -2 3\n"
+                       "void light l 0 0 3 9 9 9 l polygon lamp 0 0 12 -.7 -.7 2 -.7 .7 2 .7 .7 2 .7 -.7 2\n"
+                       "void glow g 0 0 4 5 5 5 0 g sphere ball 0 0 4 1.2 1 1 .4\n";
+    const graze_ray ray = {.origin = {-0.5, -4, 1.5}, .direction = {0.1, 1, -0.4}};
+    static const struct {
+        int bounces, limit, back_faces;
+        double threshold, minimum_weight;
+    } settings[] = {{0, 0, 1, 0, 1e-4}, {2, 0, 1, 0, 1e-4},  {0, 0, 1, 1, 1e-4},  {2, 0, 1, 1, 1e-4},
+                    {2, 1, 1, 0, 1e-4}, {2, -2, 1, 0, 1e-4}, {2, 2, 1, 0, 0.4},   {2, 0, 0, 0, 1e-4},
+                    {2, 1, 0, 0, 1e-4}, {1, -1, 1, 1, 0.3},  {0, -1, 1, 0, 1e-4}, {2, -9, 1, 0, 0.9}};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        graze_answer a[3];
+        for (int strategy = 0; strategy < 3; strategy++) {
+            graze_trace_settings s = settings_for((graze_strategy)strategy, settings[i].bounces);
+            s.reflection_limit = settings[i].limit;
+            s.back_faces_visible = settings[i].back_faces;
+            s.specular_threshold = settings[i].threshold;
+            s.minimum_weight = settings[i].minimum_weight;
+            s.samples = strategy == GRAZE_STRATEGY_BRDF ? 1 << 16 : 1 << 14;
+            a[strategy] = ask(text, s, ray);
+        }
+        for (int strategy = 1; strategy < 3; strategy++) {
+            double error = hypot(a[0].standard_error.g, a[strategy].standard_error.g);
+            if (!(a[0].value.g > 0) || fabs(a[0].value.g - a[strategy].value.g) > 4.5 * error)
+                fail_msg("settings %zu: %g against %g +- %g", i, a[0].value.g, a[strategy].value.g, error);
+        }
+    }
+}
+
+/* A lamp let into the ceiling, coplanar with it, shines whichever was written first, for every strategy. */
+static void a_lamp_coplanar_with_the_ceiling(void **state) {
+    (void)state;
+    const char *ceiling = "void plastic w 0 0 5 .5 .5 .5 0 0 w polygon ceiling 0 0 12 -5 -5 2 -5 5 2 5 5 2 5 -5 2\n";
+    const char *lamp = "void light l 0 0 3 1 1 1 l polygon lamp 0 0 12 -1 -.5 2 -1 .5 2 1 .5 2 1 -.5 2\n";
+    for (int strategy = 0; strategy < 3; strategy++)
+        for (int order = 0; order < 2; order++) {
+            char text[512];
+            snprintf(text, sizeof text, "%s%s", order ? ceiling : lamp, order ? lamp : ceiling);
+            graze_trace_settings s = settings_for((graze_strategy)strategy, 1);
+            s.quantity = GRAZE_IRRADIANCE;
+            assert_answer(ask(text, s, sensor), rectangle_irradiance(1, 0.5, 2 - 1e-4), 0.002);
+        }
+}
+
+/* Stopping at an error that is itself estimated must neither shift the mean nor make the error a lie: a lamp in a grey
+ * ball, where most samples agree and a few differ. Radiance is the sum of the bounces, .02 (1 - .48^5) / .52. */
+static void stopping_is_honest(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text("void plastic g 0 0 5 .5 .5 .5 0 0 g bubble room 0 0 4 0 0 0 5\n"
+                                         "void glow l 0 0 4 1 1 1 0 l sphere lamp 0 0 4 0 0 0 1\n");
+    const graze_ray ray = {.origin = {3, 0, 0}, .direction = {1, 0, 0}};
+    const double truth = 0.02 * (1 - pow(0.48, 5)) / 0.52;
+    enum { COUNT = 2000 };
+    for (int i = 0; i < 3; i++) {
+        graze_trace_settings s = settings_for(GRAZE_STRATEGY_MIS, 5);
+        s.error = (double[]){0.02, 0.01, 0.005}[i];
+        double sum = 0, variance = 0;
+        int covered = 0;
+        for (int stream = 0; stream < COUNT; stream++) {
+            graze_answer answer;
+            graze_trace(scene, &s, &ray, (uint64_t)stream, &answer, NULL);
+            sum += answer.value.g;
+            variance += answer.standard_error.g * answer.standard_error.g;
+            covered += fabs(answer.value.g - truth) <= 2.131 * answer.standard_error.g;
+        }
+        if (fabs(sum / COUNT - truth) > 4 * sqrt(variance) / COUNT || covered < 0.9 * COUNT || covered > 0.97 * COUNT)
+            fail_msg("--error %g: mean %g of %g, %d of %d covered", s.error, sum / COUNT, truth, covered, COUNT);
+    }
+    graze_scene_destroy(scene);
+}
+
+/* More than half the sky lights what faces exactly away from its middle. */
+static void wide_sky_from_below(void **state) {
+    (void)state;
+    const char *text = "void light sky_light 0 0 3 1 1 1 sky_light source sky 0 0 4 0 0 -1 360\n";
+    for (int strategy = 0; strategy < 3; strategy++) {
+        graze_trace_settings s = settings_for((graze_strategy)strategy, 0);
+        s.quantity = GRAZE_IRRADIANCE;
+        assert_answer(ask(text, s, sensor), PI, 0.002);
+    }
+}
+
 /* What a glow lights: nothing diffuse without an ambient bounce, everything within its radius, nothing if negative. */
 static void roles_of_glows(void **state) {
     (void)state;
@@ -269,6 +358,10 @@ int main(void) {
         cmocka_unit_test(irradiance_of_a_cylinder),
         cmocka_unit_test(mirror_image_of_a_light),
         cmocka_unit_test(strategies_agree_on_a_glossy_floor),
+        cmocka_unit_test(strategies_agree_whatever_the_settings),
+        cmocka_unit_test(stopping_is_honest),
+        cmocka_unit_test(wide_sky_from_below),
+        cmocka_unit_test(a_lamp_coplanar_with_the_ceiling),
         cmocka_unit_test(roles_of_glows),
         cmocka_unit_test(spotlight_shines_in_its_cone_only),
         cmocka_unit_test(lights_shine_from_their_front_only),

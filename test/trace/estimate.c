@@ -124,9 +124,24 @@ static void zeros_need_many_samples_unless_certain(void **state) {
     estimate(&s, 1, zero, &(estimate_luck){ESTIMATE_PLACE}, &certain);
     estimate(&s, 1, zero, &(estimate_luck){ESTIMATE_NOISY}, &noisy);
     s.strategy = GRAZE_STRATEGY_BRDF;
-    estimate(&s, 1, zero, &(estimate_luck){ESTIMATE_NOISY}, &lucky);
+    estimate(&s, 1, zero, &(estimate_luck){ESTIMATE_SEARCH}, &lucky);
     assert_true(certain.samples < noisy.samples && noisy.samples < lucky.samples);
     assert_true(noisy.samples >= 512 && lucky.samples >= 65536);
+}
+
+/* A search takes many samples however small their scatter. */
+static rgb search(void *user, sampler *points, estimate_luck *luck) {
+    (void)user;
+    *luck = ESTIMATE_SEARCH;
+    return rgb_gray(1 + 1e-3 * sampler_1d(points));
+}
+
+static void searches_need_many_samples(void **state) {
+    (void)state;
+    graze_trace_settings s = graze_trace_defaults();
+    graze_answer answer;
+    estimate(&s, 1, search, NULL, &answer);
+    assert_true(answer.converged && answer.samples >= 512);
 }
 
 static void reports_the_limit(void **state) {
@@ -147,6 +162,7 @@ int main(void) {
         cmocka_unit_test(intervals_cover_the_truth),
         cmocka_unit_test(stops_at_the_error_asked_for),
         cmocka_unit_test(zeros_need_many_samples_unless_certain),
+        cmocka_unit_test(searches_need_many_samples),
         cmocka_unit_test(reports_the_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

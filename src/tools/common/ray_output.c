@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/number.h"
 #include "image/rgbe.h"
 
 /* Every letter rtrace knows: whether light must be traced for it, and how many numbers it prints (0: a text). */

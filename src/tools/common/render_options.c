@@ -103,7 +103,7 @@ static graze_status read_strategy(const char *name, graze_strategy *strategy, co
 graze_status render_options_settings(const render_options *o, bool sensor, graze_trace_settings *s,
                                      const graze_report *report) {
     if (strcmp(o->color, "RGB") != 0)
-        return report_error(report, NULL, "-p%s is not supported yet: answers are -pRGB", o->color);
+        return report_error(report, NULL, "option '-p%s' is not supported yet", o->color);
     *s = graze_trace_defaults();
     s->quantity = sensor ? GRAZE_IRRADIANCE : o->irradiance ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
     s->ambient_bounces = o->ambient_divisions > 0 ? o->ambient_bounces : 0;
