@@ -100,15 +100,25 @@ $(BIN)/%: $(BUILD)/obj/tools/%.o $(BUILD)/libtools.a $(call archives,picture)
 $(BUILD)/agreement: scripts/agreement.c $(call archives,image) $(BUILD)/flags
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -MMD -MP -o $@ $< $(call archives,image) $(call libs,image) $(LDFLAGS)
 
-# The libraries show nothing but what the public headers mark GRAZE_API: in the static one all objects are linked into one
-# and the hidden names made local.
+# The libraries show nothing but what the public headers mark GRAZE_API. In the static one that is done by linking objects into
+# one and making the hidden names local; three of them, so that a program that needs only the BRDF or the materials gets no more
+# than that, and needs nothing but libm.
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
-$(STATIC): $(OBJECTS) $(BUILD)/sources
+PARTS   := brdf material scene
+OBJECTS_brdf     := $(filter $(BUILD)/obj/brdf/%,$(OBJECTS))
+OBJECTS_material := $(filter-out %/from_primitive.o,$(filter $(BUILD)/obj/material/%,$(OBJECTS))) $(BUILD)/obj/base/vector.o
+OBJECTS_scene    := $(filter-out $(OBJECTS_brdf) $(filter-out %/vector.o,$(OBJECTS_material)),$(OBJECTS))
+define part_rule
+$(BUILD)/parts/$(1).o: $(OBJECTS_$(1)) $(BUILD)/sources
+	@mkdir -p $$(@D)
+	$$(call say,$$@)$$(LD) -r -o $$@ $(OBJECTS_$(1))
+	@$$(OBJCOPY) --localize-hidden $$@
+endef
+$(foreach part,$(PARTS),$(eval $(call part_rule,$(part))))
+$(STATIC): $(PARTS:%=$(BUILD)/parts/%.o)
 	@mkdir -p $(@D)
-	$(call say,$@)$(LD) -r -o $(BUILD)/graze.o $(OBJECTS)
-	@$(OBJCOPY) --localize-hidden $(BUILD)/graze.o
 	@rm -f $@
-	@$(AR) rcs $@ $(BUILD)/graze.o
+	$(call say,$@)$(AR) rcs $@ $^
 
 $(SHARED): $(OBJECTS) $(BUILD)/sources
 	@mkdir -p $(@D)

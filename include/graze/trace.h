@@ -31,12 +31,12 @@ typedef struct graze_trace_settings {
     graze_quantity quantity;
     graze_strategy strategy;
     int ambient_bounces;       /* -ab: diffuse interreflections followed, >= 0 */
-    graze_rgb ambient_value;   /* -av: radiance that stands for all diffuse light beyond */
+    graze_rgb ambient_value;   /* -av: radiance that stands for all diffuse light beyond; 0 .. 1e100 */
     int back_faces_visible;    /* -bv: 0: opaque surfaces seen from behind are not there (but cast shadows) */
     int lights_visible;        /* -dv: 0: lights nearer than a glow's radius are black to the eye and in mirrors */
-    int reflection_limit;      /* -lr: > 0: no more reflections than this; 0: roulette; < 0: roulette up to the limit */
+    int reflection_limit;      /* -lr: > 0: no more reflections than this before a light; 0: roulette; < 0: both */
     double minimum_weight;     /* -lw: below this weight paths are dropped (reflection_limit > 0) or play roulette */
-    double specular_threshold; /* -st: rough lobes up to this reflectance, 0 .. 1, are diffuse for indirect light */
+    double specular_threshold; /* -st: rough lobes up to this specularity, 0 .. 1, are diffuse for indirect light */
     double error;              /* stop when the standard error is below error x value; > 0 */
     double floor;              /* ... or below error x floor, in the unit of the value; >= 0 */
     uint32_t samples;          /* not 0: exactly this many paths, at least 2 (or 1, where all paths are equal) */

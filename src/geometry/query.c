@@ -332,7 +332,7 @@ static void trace(query *q) {
 /* Embree takes no care of rays that are none; beyond 1e100 our own squares would overflow. */
 static bool is_ray(const geometry_ray *ray) {
     double length2 = vec3_dot(ray->direction, ray->direction);
-    return length2 > 0 && length2 < 2 && vec3_dot(ray->origin, ray->origin) < 1e200;
+    return length2 > 0 && length2 < 2 && vec3_dot(ray->origin, ray->origin) < 1e50;
 }
 
 /* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray; and of those that do,

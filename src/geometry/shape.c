@@ -11,7 +11,7 @@
 /* Area, in squares of a polygon's extent, that is nothing but rounding. */
 #define NO_AREA 1e-14
 /* Squares of areas must fit into a double. */
-#define LARGEST_COORDINATE 1e70
+#define LARGEST_COORDINATE 1e9
 
 static vec3 real3(const double *reals) {
     return vec3_make(reals[0], reals[1], reals[2]);

@@ -16,7 +16,7 @@ image_format image_format_of(const char *file) {
     return !*suffix && image_output_is_special(file) ? IMAGE_FORMAT_HDR : IMAGE_FORMAT_OTHER;
 }
 
-graze_status image_check_writable(const char *file, const graze_report *report) {
+static graze_status check_suffix(const char *file, const graze_report *report) {
     if (image_format_of(file) != IMAGE_FORMAT_OTHER)
         return GRAZE_OK;
     place where = {.file = file};
@@ -33,4 +33,9 @@ graze_status image_check_writable(const char *file, const graze_report *report) 
     return report_error(report, &where,
                         "no format is known for .%s; known are .hdr, .pic, .exr and, with 8 bits a channel, %s", suffix,
                         known);
+}
+
+graze_status image_check_writable(const char *file, const graze_report *report) {
+    graze_status status = check_suffix(file, report);
+    return status == GRAZE_OK ? image_output_check(file, report) : status;
 }

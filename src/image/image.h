@@ -41,7 +41,8 @@ graze_status image_write_hdr(const image *, FILE *, const char *name, const graz
  * another name, then renamed); a failing write is a system error and leaves nothing behind. What is no regular file (a
  * pipe, /dev/stdout, /dev/null) is written to directly; without a suffix it gets Radiance HDR. */
 graze_status image_write(const image *, const char *file, const graze_report *);
-/* Whether the suffix of `file` names a format that image_write will know, checked before a long rendering. */
+/* Whether image_write will know the format of the file's suffix and may write there, checked before a long rendering.
+ */
 graze_status image_check_writable(const char *file, const graze_report *);
 /* Reads HDR itself, in any orientation, XYZE and foreign primaries converted to Radiance's; everything else through
  * OpenImageIO: channels as named in the file (one channel: gray to R, G, B), values of pictures that are sRGB made

@@ -59,6 +59,27 @@ static char *resolve(const char *file) {
     return resolved ? resolved : strdup(file);
 }
 
+graze_status image_output_check(const char *file, const graze_report *report) {
+    place where = {.file = file};
+    struct stat status;
+    if (image_output_is_special(file))
+        return GRAZE_OK;
+    if (stat(file, &status) == 0 && S_ISDIR(status.st_mode)) {
+        errno = EISDIR;
+        return report_system_error(report, &where, "cannot be created");
+    }
+    const char *slash = strrchr(file, '/');
+    char *directory = slash ? strndup(file, (size_t)(slash - file) + 1) : strdup(".");
+    if (!directory)
+        return report_out_of_memory(report);
+    bool good = access(directory, W_OK | X_OK) == 0;
+    /* A name too long shows only when it is looked up itself. */
+    if (good && access(file, F_OK) != 0)
+        good = errno != ENAMETOOLONG;
+    free(directory);
+    return good ? GRAZE_OK : report_system_error(report, &where, "cannot be created");
+}
+
 static graze_status begin_special(image_output *output, bool direct) {
     if (direct) {
         output->path = strdup(output->file);

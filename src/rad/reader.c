@@ -137,6 +137,14 @@ static bool is_modifier(const rad_raw *raw) {
     return raw->type >= RAD_TYPE_COUNT || !rad_type_is_surface((rad_type)raw->type);
 }
 
+/* Names are printed between tabs, a record a line. */
+static bool has_control_character(const rad_word *word) {
+    for (size_t i = 0; i < word->length; i++)
+        if ((unsigned char)word->text[i] < ' ' || word->text[i] == 127)
+            return true;
+    return false;
+}
+
 static graze_status read_id(source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
@@ -144,8 +152,9 @@ static graze_status read_id(source *s, rad_raw *raw) {
     if (status)
         return status;
     place here = place_at(s, word.line, word.column);
-    if (memchr(word.text, '\t', word.length)) {
-        status = rad_reader_complain(reader, &here, "illegal tab in name \"%s\"", SHOW(&word));
+    if (has_control_character(&word)) {
+        status =
+            rad_reader_complain(reader, &here, "illegal tab or other control character in name \"%s\"", SHOW(&word));
         raw->broken = true;
     } else if (is_modifier(raw) && (word_is(&word, "void") || word_is(&word, "inherit"))) {
         status = rad_reader_complain(reader, &here, "\"%s\" cannot be the name of a modifier", SHOW(&word));

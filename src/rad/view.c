@@ -365,4 +365,6 @@ void rad_view_fit(const rad_view *view, double *pixel_aspect, int *width, int *h
         *width = (int)(*height / aspect * *pixel_aspect + 0.5);
     else
         *height = (int)(*width * aspect / *pixel_aspect + 0.5);
+    *width = *width > 0 ? *width : 1;
+    *height = *height > 0 ? *height : 1;
 }

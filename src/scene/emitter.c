@@ -16,11 +16,11 @@ static graze_status read_spot(scene_light *light, const rad_primitive *material,
     vec3 aim = vec3_make(a[4], a[5], a[6]);
     if (!(cone > 0 && cone <= 360))
         return rad_primitive_error(report, material, "the cone's full angle must be in (0, 360] degrees");
-    if (vec3_length(aim) == 0)
+    if (vec3_max_abs(aim) == 0)
         return rad_primitive_error(report, material, "the aim vector is null");
     light->spot = true;
-    light->spot_axis = vec3_normalize(aim);
-    light->spot_focus = vec3_length(aim);
+    light->spot_axis = vec3_safe_normalize(aim);
+    light->spot_focus = vec3_safe_length(aim);
     light->spot_cosine = cos(angle_radians(cone / 2));
     return GRAZE_OK;
 }

@@ -152,7 +152,7 @@ static void add_source(builder *b, int primitive) {
         return;
     }
     const double *a = p->reals;
-    if (!(a[3] > 0 && a[3] <= 360) || !(vec3_length(vec3_make(a[0], a[1], a[2])) > 0)) {
+    if (!(a[3] > 0 && a[3] <= 360) || !(vec3_max_abs(vec3_make(a[0], a[1], a[2])) > 0)) {
         fail(b, rad_primitive_error(b->report, p,
                                     "needs 4 reals: a direction that is not null, and an angle in (0, 360]"));
         return;
@@ -160,7 +160,7 @@ static void add_source(builder *b, int primitive) {
     scene_light light = b->scene->materials[material].light;
     light.surface = -1;
     light.primitive = primitive;
-    light.center = vec3_normalize(vec3_make(a[0], a[1], a[2]));
+    light.center = vec3_safe_normalize(vec3_make(a[0], a[1], a[2]));
     light.half_angle = angle_radians(a[3] / 2);
     if (light.spot) {
         rad_primitive_warning(b->report, p, "a source is infinitely far away: the spotlight's cone is ignored");

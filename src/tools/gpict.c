@@ -67,7 +67,13 @@ static graze_status take_output(void *target, const char *suffix, int count, con
 
 static graze_status check_outputs(const gpict_options *o, const graze_report *report) {
     for (int i = 0; i < o->pictures.count; i++) {
-        graze_status status = image_check_writable(o->pictures.files[i], report);
+        const char *file = o->pictures.files[i];
+        bool again = strcmp(file, o->contours) == 0;
+        for (int j = 0; j < i; j++)
+            again = again || strcmp(file, o->pictures.files[j]) == 0;
+        if (again)
+            return report_error(report, NULL, "%s is to be written twice", file);
+        graze_status status = image_check_writable(file, report);
         if (status != GRAZE_OK)
             return status;
     }
@@ -96,6 +102,15 @@ static bool needs_layers(const gpict_options *o) {
     return false;
 }
 
+static graze_status check_scenes(const tool_arguments *arguments, const graze_report *report) {
+    int inputs = 0;
+    if (arguments->operand_count == 0)
+        return report_error(report, NULL, "no scene given; try --help");
+    for (int i = 0; i < arguments->operand_count; i++)
+        inputs += strcmp(arguments->operands[i], "-") == 0;
+    return inputs > 1 ? report_error(report, NULL, "standard input can be only one of the scenes") : GRAZE_OK;
+}
+
 /* Gives the picture its header, writes it, and says what --max-samples cut short. */
 static graze_status finish(const gpict_options *o, const picture_settings *settings, image *picture, size_t unconverged,
                            const tool_arguments *arguments, const graze_report *report) {
@@ -106,14 +121,15 @@ static graze_status finish(const gpict_options *o, const picture_settings *setti
     picture->command = command;
     picture->software = "Graze " GRAZE_VERSION;
     picture->display_exposure = o->exposure;
-    if (unconverged && o->render.warnings)
+    if (unconverged)
         report_warning(report, NULL, "%zu of %zu pixels reached --max-samples before --error", unconverged,
                        (size_t)settings->width * (size_t)settings->height);
     return write_outputs(o, picture, report);
 }
 
-static graze_status run(void *user, const tool_arguments *arguments, const graze_report *report) {
+static graze_status run(void *user, const tool_arguments *arguments, const graze_report *full_report) {
     const gpict_options *o = user;
+    const graze_report quiet = tool_report(full_report, o->render.warnings), *report = &quiet;
     picture_settings picture = {.view = o->view,
                                 .width = o->width,
                                 .height = o->height,
@@ -131,8 +147,8 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
         status = rad_view_prepare(&picture.view, report);
     if (status == GRAZE_OK)
         status = check_outputs(o, report);
-    if (status == GRAZE_OK && arguments->operand_count == 0)
-        status = report_error(report, NULL, "no scene given; try --help");
+    if (status == GRAZE_OK)
+        status = check_scenes(arguments, report);
     if (status == GRAZE_OK) {
         rad_view_fit(&picture.view, &picture.pixel_aspect, &picture.width, &picture.height);
         status =

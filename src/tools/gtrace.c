@@ -120,15 +120,16 @@ static graze_status answer_rays(job *j, const tool_arguments *arguments, const g
     if (status == GRAZE_OK)
         status = record_filter_run(&filter, &count, report);
     unsigned long long unconverged = atomic_load(&j->unconverged);
-    if (unconverged && o->render.warnings)
+    if (unconverged)
         report_warning(report, NULL, "%llu of %llu answers reached --max-samples before --error", unconverged,
                        (unsigned long long)count);
     record_reader_close(filter.reader);
     return status;
 }
 
-static graze_status run(void *user, const tool_arguments *arguments, const graze_report *report) {
+static graze_status run(void *user, const tool_arguments *arguments, const graze_report *full_report) {
     job j = {.options = user};
+    const graze_report quiet = tool_report(full_report, j.options->render.warnings), *report = &quiet;
     graze_status status = prepare(&j, arguments, report);
     if (status == GRAZE_OK)
         status = graze_scene_load(&j.scene, arguments->operands, (size_t)arguments->operand_count,

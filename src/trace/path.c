@@ -16,6 +16,10 @@
 /* From this many reflections on, paths survive in proportion to what they carry. */
 #define ROULETTE_DEPTH 4
 
+/* Surfaces that reflect more than they receive are warned about, not refused. Between two of them light grows without
+ * bound; its path ends here, long before numbers overflow. */
+#define LARGEST_THROUGHPUT 1e30
+
 /* Up to so many lights are all sampled, at the first point and at later ones; of more, one is chosen. */
 #define EVERY_LIGHT_FIRST 8
 #define EVERY_LIGHT_LATER 2
@@ -104,7 +108,7 @@ static bool path_vertex(const path *p, const path_hit *hit, vertex *v) {
         graze_surface_prepare(&v->shading, &material->reflector, normal, view, NULL);
     v->ambient = v->shading.diffuse;
     v->gloss_is_ambient = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY &&
-                          rgb_max(v->shading.specular) <= p->context->settings->specular_threshold;
+                          material->reflector.specularity <= p->context->settings->specular_threshold;
     if (v->gloss_is_ambient)
         v->ambient = rgb_add(v->ambient, v->shading.specular);
     return true;
@@ -324,6 +328,8 @@ static bool reflect(path *p, const vertex *v, const light_receiver *receiver, lo
         .receiver = *receiver,
     };
     p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));
+    if (rgb_max(p->last.direct) > LARGEST_THROUGHPUT || rgb_max(p->last.indirect) > LARGEST_THROUGHPUT)
+        return false;
     p->depth++;
     p->ambient_depth += diffuse;
     p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;

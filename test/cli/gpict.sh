@@ -51,6 +51,21 @@ fails "a picture of no size" 1 "-x" "" "$gpict" -x 0 room.rad
 fails "an unknown suffix" 1 "strange" "" "$gpict" -o picture.strange room.rad
 fails "a missing scene" 2 "nowhere.rad" "" "$gpict" nowhere.rad
 
+fails "the same file twice" 1 "written twice" "" "$gpict" -o a.hdr -o a.hdr room.rad
+fails "standard input twice" 1 "only one" "" "$gpict" - -
+mkdir -p folder.hdr
+fails "a directory for a picture" 2 "Is a directory" "" "$gpict" -o folder.hdr room.rad
+rmdir folder.hdr
+"$gpict" -vtc -vh 360 -vv 179 -x 16 -y 16 --samples 2 room.rad >flat
+check "a view too flat for its pixels has one row at least" test -s flat
+rm flat
+"$gpict" $view -x 20 -y 20 -o UP.EXR room.rad
+check "layers whatever the suffix's case" grep -aq standard_error UP.EXR
+rm UP.EXR
+(ulimit -f 1; "$gpict" $view -x 200 -y 200 --samples 2 -o big.hdr room.rad 2>big.err)
+check "a file at its limit is told" test $? -eq 2 -a -s big.err -a ! -e big.hdr
+rm -f big.err
+
 # Bad output.
 fails "a folder that is not there" 2 "nowhere/a.hdr" "" "$gpict" $view -x 4 -y 4 -o nowhere/a.hdr room.rad
 if [ -w /dev/full ]; then

@@ -101,6 +101,18 @@ printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
 fails "an undefined modifier" 1 "undefined.rad:1:1" "" "$gtrace" undefined.rad
 fails "a failing command" 1 "exit 3" "" "$gtrace" '!exit 3'
 
+printf 'void light l 0 0 3 1e200 1 1 l sphere s 0 0 4 0 0 0 1\n' >bright.rad
+fails "radiance beyond computing" 1 "light l: radiance above 1e100" "" "$gtrace" bright.rad
+printf 'void plastic p 0 0 5 1 1 1 0 0 p sphere s 0 0 4 0 0 1e12 1\n' >far.rad
+fails "coordinates beyond sight" 1 "sphere s" "" "$gtrace" far.rad
+printf 'void plastic p 0 0 5 1 1 1 0 0 p sphere "a\nb" 0 0 4 0 0 1 1\n' >name.rad
+fails "a name of two lines" 1 "control character" "" "$gtrace" name.rad
+check "a sensor far away is answered" sh -c "echo '1e34 0 0 -1 0 0' | '$gtrace' -h -I -ov room.rad"
+printf 'void plastic p 0 0 5 1 1 1 1e4 0 p bubble s 0 0 4 0 0 0 1 void light l 0 0 3 1 1 1 l sphere t 0 0 4 .5 0 0 .1\n' >growing.rad
+check "light that grows without bound stays finite" sh -c "echo '0 0 .5 .001 0 1' | '$gtrace' -w- -h -ove growing.rad | grep -vE 'inf|nan'"
+check "-w- silences the scene's warnings" sh -c "'$gtrace' -w- -h growing.rad </dev/null 2>&1 | wc -c | grep -qx 0"
+check "... which are there" sh -c "'$gtrace' -h growing.rad </dev/null 2>&1 | grep -q 'growing.rad:1:1: plastic p'"
+
 # Bad output.
 if [ -w /dev/full ]; then
     "$gtrace" -h room.rad <rays >/dev/full 2>err

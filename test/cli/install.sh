@@ -74,6 +74,8 @@ for example in examples/*.c; do
     done
 done
 check "an installed tool runs" runs "$root/bin/gtrace" --version
+materials_alone() { "${CC:-cc}" -I"$root/include" examples/link_material.c "$root/lib/libgraze.a" -lm -o "$work/alone" && "$work/alone"; }
+check "materials link with nothing but libm" materials_alone
 check "make uninstall" make_quietly uninstall
 check "nothing is left" test -z "$(installed_files)"
 plan

@@ -172,7 +172,7 @@ static void reports_errors_with_places(void **state) {
         {"inherit sphere a 0 0 4 0 0 0 1", "only an alias can have the modifier \"inherit\""},
         {"void light void 0 0 3 1 1 1", "scene.rad:1:12: \"void\" cannot be the name of a modifier"},
         {"void light inherit 0 0 3 1 1 1", "\"inherit\" cannot be the name of a modifier"},
-        {"void light 'a\tb' 0 0 3 1 1 1", "scene.rad:1:12: illegal tab in name \"a?b\""},
+        {"void light 'a\tb' 0 0 3 1 1 1", "scene.rad:1:12: illegal tab or other control character in name \"a?b\""},
         {"'vo\tid' light a 0 0 3 1 1 1", "scene.rad:1:1: undefined modifier \"vo?id\""},
         {"void light a -1 0 3 1 1 1", "scene.rad:1:14: light a: \"-1\" is not a number of string arguments"},
         {"void light a 0 0 3.5 1 1 1", "scene.rad:1:18: light a: \"3.5\" is not a number of real arguments"},

@@ -58,7 +58,7 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
          NULL, NULL},
         {"-bv", OPTION_FLAG, &o->back_faces, NULL, "surfaces are seen from behind", 0, 0, NULL, NULL},
         {"-dv", OPTION_FLAG, &o->lights_visible, NULL, "lights are seen", 0, 0, NULL, NULL},
-        {"-st", OPTION_REAL, &o->specular_threshold, "R", "rough lobes up to this reflectance count as diffuse", 0, 1,
+        {"-st", OPTION_REAL, &o->specular_threshold, "R", "rough lobes up to this specularity count as diffuse", 0, 1,
          NULL, NULL},
         {"-lr", OPTION_INTEGER, &o->reflection_limit, "N", "limit of reflections; <= 0: roulette; 0: none", -1000000,
          1000000, NULL, NULL},

@@ -16,4 +16,7 @@ typedef struct tool_arguments {
 int tool_main(const option_table *, int argc, char **argv, const graze_report *,
               graze_status (*run)(void *user, const tool_arguments *, const graze_report *), void *user);
 
+/* The report of a run: without warnings where they are not wanted (-w-). The one given must outlive it. */
+graze_report tool_report(const graze_report *, bool warnings);
+
 #endif
