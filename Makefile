@@ -138,7 +138,7 @@ $(LIB)/graze/oiio.so: src/image/oiio.cpp src/image/oiio.h $(BUILD)/flags
 JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j2)
 PEER := yes
 
-.PHONY: demo test asan
+.PHONY: demo test bench asan
 # demo: render the paper's grazing scene with each strategy; installs what is missing first
 demo:
 	@scripts/install-dependencies build
@@ -152,6 +152,13 @@ test:
 	@$(MAKE) $(JOBS) --no-print-directory all tests
 	@BUILD=$(BUILD) BIN=$(BIN) MAKE=$(MAKE) test/run $(TEST_GROUPS)
 test: TEST_GROUPS = unit cli $(if $(filter no,$(PEER)),,peer)
+
+# bench: rays a second beside real Radiance's rtrace
+bench:
+	@scripts/install-dependencies build test
+	@scripts/install-peer
+	@$(MAKE) $(JOBS) --no-print-directory all
+	@BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) build/peer/bin/python test/bench/rays.py
 
 # asan: unit and command-line tests under the address and undefined-behaviour sanitizers, built in build-asan
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all

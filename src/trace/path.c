@@ -264,9 +264,7 @@ static rgb reflectance_for_light(const path *p, const vertex *v, const light_sam
 
 /* Direct light, Eq. 18, from a sample of one light that was chosen with the probability. */
 static void add_sampled_light(path *p, const vertex *v, const light_receiver *receiver, int light, double probability,
-                              lobe_choice choice) {
-    double random[2];
-    sampler_2d(p->sampler, random);
+                              const double random[2], lobe_choice choice) {
     light_sample sample = light_draw(p->context->scene, receiver, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
         return;
@@ -282,17 +280,20 @@ static void add_sampled_light(path *p, const vertex *v, const light_receiver *re
 /* Samples every light, or one that is chosen. */
 static void add_direct_light(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice) {
     const graze_scene *scene = p->context->scene;
-    double probability = 0;
+    double random[3], probability = 0;
     if (receiver->candidates == 0)
         return;
     if (!receiver->every) {
-        int light = light_choose(scene, receiver, sampler_1d(p->sampler), &probability);
-        add_sampled_light(p, v, receiver, light, probability, choice);
+        sampler_3d(p->sampler, random);
+        int light = light_choose(scene, receiver, random[0], &probability);
+        add_sampled_light(p, v, receiver, light, probability, random + 1, choice);
         return;
     }
     for (int light = 0; light < (int)scene->light_count; light++)
-        if (light_probability(scene, receiver, light) > 0)
-            add_sampled_light(p, v, receiver, light, 1, choice);
+        if (light_probability(scene, receiver, light) > 0) {
+            sampler_2d(p->sampler, random);
+            add_sampled_light(p, v, receiver, light, 1, random, choice);
+        }
 }
 
 /* Whether a reflection in this direction may meet lights that no light sample finds: all of them, or those seen in a

@@ -1,9 +1,10 @@
 """Rays a second of gtrace and of Radiance's rtrace, side by side: direct light only, floats in and out.
 
-Needs numpy, BIN (Graze's tools), GRAZE_PEER_BIN and GRAZE_PEER_RAYPATH (Radiance's). Prints medians over alternating runs, with
-their spread, and how far the answers lie from a reference of many samples.
+Run by `make bench`. Prints medians over alternating runs, with their spread, and how far the answers lie from a reference of
+many samples. RUNS (3) in the environment sets how many runs.
 """
 
+import glob
 import os
 import statistics
 import subprocess
@@ -14,7 +15,8 @@ import time
 import numpy as np
 
 BIN = os.environ["BIN"]
-PEER = os.environ["GRAZE_PEER_BIN"]
+PYRADIANCE = glob.glob(os.environ["GRAZE_PEER"] + "/lib/python3*/site-packages/pyradiance")[0]
+PEER = PYRADIANCE + "/bin"
 RUNS = int(os.environ.get("RUNS", "3"))
 BOX = """
 void plastic wall 0 0 5 .6 .6 .6 0 0
@@ -108,7 +110,7 @@ def time_of_start(command, empty):
 
 
 def main():
-    os.environ["RAYPATH"] = os.environ["GRAZE_PEER_RAYPATH"]
+    os.environ["RAYPATH"] = PYRADIANCE + "/lib"
     with tempfile.TemporaryDirectory() as folder:
         bench("small", spheres(), folder, 10_000)
         bench("mesh", mesh(), folder, 10_000)
