@@ -94,7 +94,7 @@ static void sees_what_vwrays_sees(void **state) {
             assert_int_equal(pclose(in), 0);
             snprintf(wanted, sizeof wanted, "-x %d -y %d", width, height);
             /* Radiance lets a side shrink to nothing; ours keeps one pixel. */
-            if (strstr(size, " -y 0") && height == 1)
+            if ((strstr(size, "-x 0 ") && width == 1) || (strstr(size, " -y 0") && height == 1))
                 continue;
             assert_contains(size, wanted);
             snprintf(command, sizeof command, "%s/vwrays -fd %s %s", peer, views[i], sizes[k]);
