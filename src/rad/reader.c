@@ -393,12 +393,23 @@ graze_status rad_reader_command(rad_reader *reader, const char *command, const r
 
 /* ---- Whole inputs ---- */
 
+/* Scripts that run oconv first hand its result to the renderer. */
+static bool is_octree(const rad_text *text) {
+    static const char first[] = "#?RADIANCE\n", format[] = "\nFORMAT=Radiance_octree";
+    if (strncmp(text->bytes, first, sizeof first - 1) != 0)
+        return false;
+    const char *end = strstr(text->bytes, "\n\n"), *found = strstr(text->bytes, format);
+    return found && end && found < end;
+}
+
 graze_status rad_reader_text(rad_reader *reader, const rad_text *text, const char *name, const rad_context *context,
                              const rad_sink *sink) {
     source s = {.reader = reader, .name = name, .context = context, .sink = sink};
     place here = place_at(&s, 0, 0);
     if (context->depth > DEPTH_MOST)
         return report_error(reader->report, &here, "files and commands are nested more than %d deep", DEPTH_MOST);
+    if (is_octree(text))
+        return report_error(reader->report, &here, "an octree is not read yet: give the scene files that oconv got");
     rad_words_begin(&s.words, text->bytes, text->length);
     graze_status status = GRAZE_OK;
     while (!status) {

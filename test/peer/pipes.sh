@@ -123,4 +123,5 @@ for v in "${views[@]}"; do
 done
 quiet "pfilt and pcomb over a lit picture" lit_picture
 quiet "a !command as scene" no_oconv
+fails "a real octree is told from a scene" 1 "an octree is not read yet" "" gtrace glows.oct
 plan
