@@ -132,17 +132,6 @@ static graze_status make_sphere(shape *s, const rad_primitive *p, const graze_re
     return GRAZE_OK;
 }
 
-/* The length of a vector whose square may under- or overflow. */
-static double safe_length(vec3 a) {
-    double scale = vec3_max_abs(a);
-    return scale > 0 ? scale * vec3_length(vec3_scale(1 / scale, a)) : 0;
-}
-
-static vec3 safe_unit(vec3 a) {
-    double scale = vec3_max_abs(a);
-    return scale > 0 ? vec3_normalize(vec3_scale(1 / scale, a)) : a;
-}
-
 static int radius_sign(double radius) {
     return (radius > TINY_RADIUS) - (radius < -TINY_RADIUS);
 }
@@ -172,8 +161,8 @@ static graze_status make_cone(shape *s, bool *degenerate, const rad_primitive *p
     s->cone.r0 = r0;
     s->cone.r1 = fabs(r1 - r0) <= TINY_RADIUS ? r0 : r1;
     vec3 axis = vec3_subtract(s->cone.p1, s->cone.p0);
-    s->cone.length = safe_length(axis);
-    s->cone.axis = safe_unit(axis);
+    s->cone.length = vec3_safe_length(axis);
+    s->cone.axis = vec3_safe_normalize(axis);
     *degenerate = !(s->cone.length > 0);
     if (*degenerate)
         rad_primitive_warning(report, p, "unknown orientation; the surface is left out");
@@ -190,7 +179,7 @@ static graze_status make_ring(shape *s, bool *degenerate, const rad_primitive *p
     r1 *= sign1;
     s->kind = SHAPE_RING;
     s->ring.center = real3(p->reals);
-    s->ring.normal = safe_unit(real3(p->reals + 3));
+    s->ring.normal = vec3_safe_normalize(real3(p->reals + 3));
     s->ring.r0 = fmin(r0, r1);
     s->ring.r1 = fmax(r0, r1);
     if (sign0 < 0 || sign1 < 0 || s->ring.r1 - s->ring.r0 <= TINY_RADIUS) {
@@ -274,7 +263,7 @@ static vec3 cone_normal(const shape *s, vec3 point) {
     cone_height(s, point, &radial);
     double growth = (s->cone.r1 - s->cone.r0) / s->cone.length;
     /* A point on the axis can only be the apex, where the axis is as good as any normal. */
-    return vec3_normalize(vec3_add_scaled(safe_unit(radial), -growth, s->cone.axis));
+    return vec3_normalize(vec3_add_scaled(vec3_safe_normalize(radial), -growth, s->cone.axis));
 }
 
 vec3 shape_normal(const shape *s, vec3 point) {
@@ -285,7 +274,7 @@ vec3 shape_normal(const shape *s, vec3 point) {
     case SHAPE_RING:
         return s->ring.normal;
     case SHAPE_SPHERE:
-        normal = safe_unit(vec3_subtract(point, s->sphere.center));
+        normal = vec3_safe_normalize(vec3_subtract(point, s->sphere.center));
         break;
     case SHAPE_CONE:
         normal = cone_normal(s, point);
@@ -303,7 +292,7 @@ static vec3 pull_to_cone(const shape *s, vec3 point) {
     double height = fmin(fmax(cone_height(s, point, &radial), 0), s->cone.length);
     double radius = s->cone.r0 + (s->cone.r1 - s->cone.r0) * (height / s->cone.length);
     vec3 foot = vec3_add_scaled(s->cone.p0, height, s->cone.axis);
-    return vec3_add_scaled(foot, radius, safe_unit(radial));
+    return vec3_add_scaled(foot, radius, vec3_safe_normalize(radial));
 }
 
 vec3 shape_pull(const shape *s, vec3 point) {
@@ -313,7 +302,8 @@ vec3 shape_pull(const shape *s, vec3 point) {
     case SHAPE_RING:
         return pull_to_plane(point, s->ring.center, s->ring.normal);
     case SHAPE_SPHERE:
-        return vec3_add_scaled(s->sphere.center, s->sphere.radius, safe_unit(vec3_subtract(point, s->sphere.center)));
+        return vec3_add_scaled(s->sphere.center, s->sphere.radius,
+                               vec3_safe_normalize(vec3_subtract(point, s->sphere.center)));
     case SHAPE_CONE:
         return pull_to_cone(s, point);
     }

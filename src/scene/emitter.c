@@ -3,9 +3,6 @@
 
 #include "base/angle.h"
 
-/* So that sums and squares of radiances stay far from overflow. */
-#define LARGEST_RADIANCE 1e100
-
 bool emitter_is(rad_type type) {
     return type == RAD_LIGHT || type == RAD_ILLUM || type == RAD_GLOW || type == RAD_SPOTLIGHT;
 }
@@ -42,7 +39,7 @@ graze_status emitter_to_light(scene_light *light, const rad_primitive *material,
     const double *a = material->reals;
     if (!(a[0] >= 0 && a[1] >= 0 && a[2] >= 0))
         return rad_primitive_error(report, material, "radiance must not be negative");
-    if (rgb_max((rgb){a[0], a[1], a[2]}) > LARGEST_RADIANCE)
+    if (rgb_max((rgb){a[0], a[1], a[2]}) > SCENE_LARGEST_RADIANCE)
         return rad_primitive_error(report, material, "radiance above 1e100 is beyond what can be computed with");
     light->radiance = (rgb){a[0], a[1], a[2]};
     if (material->type == RAD_GLOW) {

@@ -12,6 +12,9 @@
 #include "graze/scene.h"
 #include "rad/scene_file.h"
 
+/* Of a light, and of the ambient value: sums and squares of radiances then stay far from overflow. */
+#define SCENE_LARGEST_RADIANCE 1e100
+
 /* How a light takes part in the lighting of a point. */
 typedef enum light_role {
     LIGHT_NONE,    /* only seen: glow with a negative radius */

@@ -102,15 +102,6 @@ static bool needs_layers(const gpict_options *o) {
     return false;
 }
 
-static graze_status check_scenes(const tool_arguments *arguments, const graze_report *report) {
-    int inputs = 0;
-    if (arguments->operand_count == 0)
-        return report_error(report, NULL, "no scene given; try --help");
-    for (int i = 0; i < arguments->operand_count; i++)
-        inputs += strcmp(arguments->operands[i], "-") == 0;
-    return inputs > 1 ? report_error(report, NULL, "standard input can be only one of the scenes") : GRAZE_OK;
-}
-
 /* Gives the picture its header, writes it, and says what --max-samples cut short. */
 static graze_status finish(const gpict_options *o, const picture_settings *settings, image *picture, size_t unconverged,
                            const tool_arguments *arguments, const graze_report *report) {
@@ -148,7 +139,7 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
     if (status == GRAZE_OK)
         status = check_outputs(o, report);
     if (status == GRAZE_OK)
-        status = check_scenes(arguments, report);
+        status = tool_check_scenes(arguments, false, report);
     if (status == GRAZE_OK) {
         rad_view_fit(&picture.view, &picture.pixel_aspect, &picture.width, &picture.height);
         status =

@@ -77,15 +77,6 @@ static graze_status read_formats(const char *formats, record_format *in, char *o
     return GRAZE_OK;
 }
 
-static graze_status check_operands(const tool_arguments *arguments, const graze_report *report) {
-    if (arguments->operand_count == 0)
-        return report_error(report, NULL, "no scene given; try --help");
-    for (int i = 0; i < arguments->operand_count; i++)
-        if (strcmp(arguments->operands[i], "-") == 0)
-            return report_error(report, NULL, "the scene cannot be '-': rays come from standard input");
-    return GRAZE_OK;
-}
-
 /* All that can be wrong before the scene is read. */
 static graze_status prepare(job *j, const tool_arguments *arguments, const graze_report *report) {
     const gtrace_options *o = j->options;
@@ -96,7 +87,7 @@ static graze_status prepare(job *j, const tool_arguments *arguments, const graze
     if (status == GRAZE_OK)
         status = render_options_settings(&o->render, o->sensor, &j->settings, report);
     if (status == GRAZE_OK)
-        status = check_operands(arguments, report);
+        status = tool_check_scenes(arguments, true, report);
     if (status == GRAZE_OK && !j->output.needs_value && j->settings.quantity != GRAZE_RADIANCE)
         status = report_error(report, NULL, "-i and -I need an output that depends on light, such as -ov, not -o%s",
                               o->letters);

@@ -16,8 +16,6 @@ graze_trace_settings graze_trace_defaults(void) {
     };
 }
 
-/* So that sums and squares stay far from overflow. */
-#define LARGEST_RADIANCE 1e100
 /* Nobody follows a path further; and -N must exist. */
 #define REFLECTIONS 1000000
 
@@ -31,7 +29,7 @@ graze_status graze_trace_check(const graze_trace_settings *s, const graze_report
         return report_error(report, NULL, "the limit of reflections must be in %d .. %d", -REFLECTIONS, REFLECTIONS);
     if (s->ambient_bounces < 0)
         return report_error(report, NULL, "ambient bounces must not be negative");
-    if (!(av.r >= 0 && av.g >= 0 && av.b >= 0 && rgb_max(av) <= LARGEST_RADIANCE))
+    if (!(av.r >= 0 && av.g >= 0 && av.b >= 0 && rgb_max(av) <= SCENE_LARGEST_RADIANCE))
         return report_error(report, NULL, "the ambient value must be in 0 .. 1e100");
     if (!(s->minimum_weight >= 0 && s->minimum_weight <= 1))
         return report_error(report, NULL, "the minimum weight must be in 0 .. 1");

@@ -155,6 +155,15 @@ static void mirror_image_of_a_light(void **state) {
                      1e-9);
 }
 
+/* The same question answered by each strategy; there must be light. */
+static void assert_strategies_agree(const char *what, int number, const graze_answer a[3]) {
+    for (int strategy = 1; strategy < 3; strategy++) {
+        double error = hypot(a[0].standard_error.g, a[strategy].standard_error.g);
+        if (!(a[0].value.g > 0) || fabs(a[0].value.g - a[strategy].value.g) > 4.5 * error)
+            fail_msg("%s %d: %g against %g +- %g", what, number, a[0].value.g, a[strategy].value.g, error);
+    }
+}
+
 static void strategies_agree_on_a_glossy_floor(void **state) {
     (void)state;
     const char *text = "void metal2 m 4 1 1 0 . 0 6 .6 .6 .6 .8 .05 .2\n" FLOOR
@@ -166,11 +175,7 @@ static void strategies_agree_on_a_glossy_floor(void **state) {
         graze_answer a[3];
         for (int strategy = 0; strategy < 3; strategy++)
             a[strategy] = ask(text, settings_for((graze_strategy)strategy, 1), ray);
-        for (int strategy = 1; strategy < 3; strategy++) {
-            double error = hypot(a[0].standard_error.g, a[strategy].standard_error.g);
-            if (!(a[0].value.g > 0) || fabs(a[0].value.g - a[strategy].value.g) > 4.5 * error)
-                fail_msg("at %d degrees: %g against %g +- %g", degrees, a[0].value.g, a[strategy].value.g, error);
-        }
+        assert_strategies_agree("degrees", degrees, a);
     }
 }
 
@@ -202,11 +207,7 @@ static void strategies_agree_whatever_the_settings(void **state) {
             s.samples = strategy == GRAZE_STRATEGY_BRDF ? 1 << 16 : 1 << 14;
             a[strategy] = ask(text, s, ray);
         }
-        for (int strategy = 1; strategy < 3; strategy++) {
-            double error = hypot(a[0].standard_error.g, a[strategy].standard_error.g);
-            if (!(a[0].value.g > 0) || fabs(a[0].value.g - a[strategy].value.g) > 4.5 * error)
-                fail_msg("settings %zu: %g against %g +- %g", i, a[0].value.g, a[strategy].value.g, error);
-        }
+        assert_strategies_agree("settings", (int)i, a);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <signal.h>
 #include <stdint.h>
+#include <string.h>
 
 int tool_main(const option_table *table, int argc, char **argv, const graze_report *report,
               graze_status (*run)(void *user, const tool_arguments *, const graze_report *), void *user) {
@@ -30,4 +31,15 @@ static void drop_warnings(void *user, graze_severity severity, const char *text)
 
 graze_report tool_report(const graze_report *report, bool warnings) {
     return warnings ? *report : (graze_report){drop_warnings, (void *)(uintptr_t)report};
+}
+
+graze_status tool_check_scenes(const tool_arguments *arguments, bool input_taken, const graze_report *report) {
+    int inputs = 0;
+    if (arguments->operand_count == 0)
+        return report_error(report, NULL, "no scene given; try --help");
+    for (int i = 0; i < arguments->operand_count; i++)
+        inputs += strcmp(arguments->operands[i], "-") == 0;
+    if (input_taken && inputs > 0)
+        return report_error(report, NULL, "the scene cannot be '-': rays come from standard input");
+    return inputs > 1 ? report_error(report, NULL, "standard input can be only one of the scenes") : GRAZE_OK;
 }
