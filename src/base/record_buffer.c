@@ -44,27 +44,54 @@ void record_append_text(record_buffer *b, const char *text) {
     record_append_bytes(b, text, strlen(text));
 }
 
-static void append_ascii(record_buffer *b, int digits, double value) {
-    char *room = reserve(b, NUMBER_TEXT_SIZE);
-    if (!room)
-        return;
-    size_t length = number_print(room, digits, value);
-    room[length] = '\t';
-    b->length += length + 1;
+static char *print_reals(char *to, int digits, const double *values, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        to += number_print(to, digits, values[i]);
+        *to++ = '\t';
+    }
+    return to;
+}
+
+/* Enough for any number and its tab. */
+static char *reserve_text(record_buffer *b, size_t count) {
+    return reserve(b, count * NUMBER_TEXT_SIZE);
+}
+
+static void append_floats(record_buffer *b, const double *values, size_t count) {
+    char *room = reserve(b, count * sizeof(float));
+    for (size_t i = 0; i < count && room; i++) {
+        float single = number_to_float(values[i]);
+        memcpy(room + i * sizeof single, &single, sizeof single);
+    }
+    b->length += room ? count * sizeof(float) : 0;
 }
 
 void record_append_reals(record_buffer *b, record_format format, int digits, const double *values, size_t count) {
     if (format == RECORD_DOUBLE) {
         record_append_bytes(b, values, count * sizeof *values);
+    } else if (format == RECORD_FLOAT) {
+        append_floats(b, values, count);
+    } else {
+        char *room = reserve_text(b, count);
+        if (room)
+            b->length += (size_t)(print_reals(room, digits, values, count) - room);
+    }
+}
+
+void record_append_records(record_buffer *b, record_format format, int digits, const double *values, size_t count,
+                           int fields) {
+    size_t numbers = (size_t)fields;
+    if (format != RECORD_ASCII) {
+        record_append_reals(b, format, digits, values, count * numbers);
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        if (format == RECORD_ASCII) {
-            append_ascii(b, digits, values[i]);
-        } else {
-            float single = number_to_float(values[i]);
-            record_append_bytes(b, &single, sizeof single);
-        }
+        char *room = reserve_text(b, numbers + 1);
+        if (!room)
+            return;
+        char *end = print_reals(room, digits, values + i * numbers, numbers);
+        *end++ = '\n';
+        b->length += (size_t)(end - room);
     }
 }
 

@@ -1,46 +1,61 @@
-/* Input records from ASCII and binary streams. */
+/* Input records from ASCII and binary streams: reading, and where whole records end. */
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
-#include <math.h>
 #include <poll.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/number.h"
-#include "base/records.h"
+#include "base/record_convert.h"
+#include "base/record_scan.h"
 #include "base/text.h"
 
-/* One read takes what a pipe holds; a word longer than this is refused. */
-enum { BUFFER_SIZE = 1 << 16 };
+/* Bytes are read in front of the memory that portions are made of: at ROOM or more, and a blank stands before the first
+ * record. What goes through it all should lie in a processor's nearer caches. */
+enum { FRONT = 64, ROOM = 1 << 17, READ_AT_LEAST = 1 << 16, BYTES_A_FIELD = 64 };
 
-/* Why reading stops at a place. It is found again, and reported, by the call that begins there. */
-typedef enum trouble {
-    NO_TROUBLE,
-    NOTHING_AT_HAND, /* the buffer is used up but for an incomplete word or value */
-    NOT_A_NUMBER,
-    NOT_FINITE,
-} trouble;
-
+/* A record is known to be whole when the blank behind its last word is there. At the end of the input one is put there.
+ */
 struct record_reader {
     int descriptor;
     char *name;
     record_format format;
     size_t fields;
+    size_t record_size; /* 0: of ASCII */
     const graze_report *report;
+    int cancel[2]; /* a pipe; a byte in it ends a wait */
 
-    size_t begin, end; /* of what is unread in `bytes` */
-    bool ended;        /* the descriptor has no more, or failed with `error` */
+    char *memory;
+    size_t room;       /* of memory: FRONT + room + 1 */
+    size_t begin, end; /* of what is unread in memory */
+    size_t scanned;    /* ASCII: from `begin` on, with so many ends of words and lines */
+    size_t words, lines;
+    bool ended; /* the descriptor has no more, or failed with `error` */
     int error;
-    graze_status status; /* trouble that has been reported */
+    bool finished; /* nothing more is given */
 
-    uint64_t record; /* the one being read, from 1 */
-    double *values;  /* its reals so far */
-    size_t filled;
-    int line;           /* of bytes[begin], for ASCII */
-    size_t line_offset; /* bytes of this line before bytes[begin] */
-    char bytes[BUFFER_SIZE];
+    uint64_t record; /* number of the one at `begin`, from 0 */
+    int line;        /* of `begin`, for ASCII */
+    size_t column;   /* bytes of this line before `begin` */
 };
+
+void record_portion_free(record_portion *p) {
+    free(p->memory);
+    *p = (record_portion){0};
+}
+
+static char *allocate(size_t room) {
+    char *memory = malloc(FRONT + room + 1);
+    if (memory)
+        memory[FRONT - 1] = ' ';
+    return memory;
+}
+
+static size_t number_size(record_format format) {
+    return format == RECORD_FLOAT ? sizeof(float) : format == RECORD_DOUBLE ? sizeof(double) : 0;
+}
 
 graze_status record_reader_open(record_reader **reader, int descriptor, const char *name, record_format format,
                                 int fields, const graze_report *report) {
@@ -48,194 +63,298 @@ graze_status record_reader_open(record_reader **reader, int descriptor, const ch
     record_reader *r = malloc(sizeof *r);
     if (!r)
         return report_out_of_memory(report);
-    r->descriptor = descriptor;
+    *r = (record_reader){.descriptor = descriptor,
+                         .format = format,
+                         .fields = (size_t)fields,
+                         .record_size = (size_t)fields * number_size(format),
+                         .report = report,
+                         .cancel = {-1, -1},
+                         .room = ROOM,
+                         .begin = FRONT,
+                         .end = FRONT,
+                         .scanned = FRONT,
+                         .line = 1};
+    size_t needed = r->record_size ? r->record_size : r->fields * BYTES_A_FIELD;
+    if (r->room < needed)
+        r->room = needed;
     r->name = strdup(name);
-    r->format = format;
-    r->fields = (size_t)fields;
-    r->report = report;
-    r->begin = r->end = 0;
-    r->ended = false;
-    r->error = 0;
-    r->status = GRAZE_OK;
-    r->record = 1;
-    r->values = malloc((size_t)fields * sizeof *r->values);
-    r->filled = 0;
-    r->line = 1;
-    r->line_offset = 0;
-    if (!r->name || !r->values) {
+    r->memory = allocate(r->room);
+    graze_status status = GRAZE_OK;
+    if (!r->name || !r->memory)
+        status = report_out_of_memory(report);
+    else if (fcntl(descriptor, F_GETFD) < 0 || pipe(r->cancel) != 0) /* a closed one's number is not the pipe's */
+        status = report_system_error(report, &(place){.file = name}, "cannot read");
+    if (status)
         record_reader_close(r);
-        return report_out_of_memory(report);
-    }
-    *reader = r;
-    return GRAZE_OK;
+    else
+        *reader = r;
+    return status;
 }
 
 void record_reader_close(record_reader *r) {
     if (!r)
         return;
+    for (int i = 0; i < 2; i++)
+        if (r->cancel[i] >= 0)
+            close(r->cancel[i]);
+    free(r->memory);
     free(r->name);
-    free(r->values);
     free(r);
 }
 
-/* Whether a read would return at once. */
-static bool is_readable(int descriptor) {
-    struct pollfd p = {.fd = descriptor, .events = POLLIN};
-    return poll(&p, 1, 0) > 0;
+void record_reader_cancel(record_reader *r) {
+    while (write(r->cancel[1], "", 1) < 0 && errno == EINTR)
+        ;
 }
 
-static void wait_until_readable(int descriptor) {
-    struct pollfd p = {.fd = descriptor, .events = POLLIN};
-    poll(&p, 1, -1);
+/* --- Reading ----------------------------------------------------------------------------------------------------- */
+
+/* Whether a read would return at once; if not, waits until it would, or until it need not be done any more. */
+static bool is_readable(record_reader *r, bool wait) {
+    struct pollfd both[2] = {{.fd = r->descriptor, .events = POLLIN}, {.fd = r->cancel[0], .events = POLLIN}};
+    int ready = 0;
+    do
+        ready = poll(both, 2, wait ? -1 : 0);
+    while (ready < 0 && errno == EINTR);
+    if (ready > 0 && both[1].revents)
+        r->finished = true;
+    return ready < 0 || both[0].revents;
 }
 
-/* Reads on behind what is in the buffer, at least a byte, or finds that the input has ended. */
-static void fill(record_reader *r) {
-    memmove(r->bytes, r->bytes + r->begin, r->end - r->begin);
-    r->end -= r->begin;
-    r->begin = 0;
-    for (;;) {
-        ssize_t got = read(r->descriptor, r->bytes + r->end, BUFFER_SIZE - r->end);
-        if (got > 0) {
-            r->end += (size_t)got;
-            return;
-        }
-        if (got == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) {
-            r->ended = true;
-            r->error = got == 0 ? 0 : errno;
-            return;
-        }
-        if (errno != EINTR)
-            wait_until_readable(r->descriptor);
+/* Moves what is unread to the front, and gives how much can be read behind it. */
+static size_t make_room(record_reader *r) {
+    size_t unread = r->end - r->begin, moved = r->begin - FRONT;
+    if (moved > 0) {
+        memmove(r->memory + FRONT, r->memory + r->begin, unread);
+        r->begin -= moved;
+        r->end -= moved;
+        r->scanned -= moved;
+    }
+    return r->room - unread;
+}
+
+/* Reads up to `most` bytes behind what there is, or finds that the input has ended. */
+static void fill(record_reader *r, size_t most) {
+    ssize_t got = read(r->descriptor, r->memory + r->end, most);
+    if (got > 0) {
+        r->end += (size_t)got;
+    } else if (got == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) {
+        r->ended = true;
+        r->error = got == 0 ? 0 : errno;
+        if (!r->record_size)
+            r->memory[r->end++] = ' ';
     }
 }
 
-static void skip_blanks(record_reader *r) {
-    for (; r->begin < r->end && text_is_blank(r->bytes[r->begin]); r->begin++) {
-        r->line_offset++;
-        if (r->bytes[r->begin] == '\n') {
-            r->line += r->line < INT_MAX;
-            r->line_offset = 0;
-        }
+/* --- Whole records ----------------------------------------------------------------------------------------------- */
+
+/* Takes no more words than `most`: there are at most half as many ends of words as bytes, and one more. */
+static void scan_words(record_reader *r, size_t most) {
+    while (r->words < most && r->scanned < r->end) {
+        size_t length = r->end - r->scanned, safe = 2 * (most - r->words) - 1;
+        if (length > safe)
+            length = safe;
+        record_count_ends(r->memory + r->scanned, length, &r->words, &r->lines);
+        r->scanned += length;
     }
 }
 
-/* The end of the word at `begin`: not past the buffer's. */
-static size_t word_end(const record_reader *r) {
-    size_t i = r->begin;
-    while (i < r->end && !text_is_blank(r->bytes[i]))
-        i++;
-    return i;
-}
-
-static trouble read_word(record_reader *r, double *value) {
-    skip_blanks(r);
-    if (r->begin == r->end)
-        return NOTHING_AT_HAND;
-    const char *word = r->bytes + r->begin, *limit = r->bytes + r->end;
-    const char *end = number_scan(word, limit, value);
-    /* A word that reaches the end of the buffer may go on behind it. */
-    if (!end || end == limit || !text_is_blank(*end)) {
-        size_t behind = word_end(r);
-        if (behind == r->end && !r->ended)
-            return r->end - r->begin < BUFFER_SIZE ? NOTHING_AT_HAND : NOT_A_NUMBER;
-        if (end != r->bytes + behind)
-            return NOT_A_NUMBER;
+/* The first word behind the last whole record of those that have been scanned. */
+static size_t find_cut(const record_reader *r) {
+    const char *begin = r->memory + r->begin, *p = r->memory + r->scanned;
+    while (p > begin && !text_is_blank(p[-1]))
+        p--;
+    for (size_t words = r->words % r->fields; words > 0; words--) {
+        while (text_is_blank(p[-1]))
+            p--;
+        while (p > begin && !text_is_blank(p[-1]))
+            p--;
     }
-    if (!isfinite(*value))
-        return NOT_FINITE;
-    r->line_offset += (size_t)(end - word);
-    r->begin += (size_t)(end - word);
-    return NO_TROUBLE;
+    return (size_t)(p - r->memory);
 }
 
-static trouble read_binary(record_reader *r, double *value) {
-    size_t size = r->format == RECORD_FLOAT ? sizeof(float) : sizeof(double);
-    if (r->end - r->begin < size)
-        return NOTHING_AT_HAND;
-    if (r->format == RECORD_FLOAT) {
-        float single;
-        memcpy(&single, r->bytes + r->begin, sizeof single);
-        *value = single;
+/* How many whole records there are, of up to `capacity`. */
+static size_t count_records(record_reader *r, size_t capacity) {
+    if (!r->record_size) {
+        scan_words(r, capacity * r->fields);
+        return r->words / r->fields;
+    }
+    size_t whole = (r->end - r->begin) / r->record_size;
+    return whole < capacity ? whole : capacity;
+}
+
+/* The bytes of records before `cut` and those behind it lie in one piece of memory: the portion gets it, or a copy of
+ * its share, whichever moves fewer bytes. */
+static bool hand_over(record_reader *r, record_portion *p, size_t cut) {
+    size_t taken = cut - r->begin, left = r->end - cut;
+    bool exchange = left < taken;
+    size_t needed = exchange ? r->room : taken;
+    if (p->capacity < needed) {
+        free(p->memory);
+        p->memory = allocate(needed);
+        p->capacity = p->memory ? needed : 0;
+        if (!p->memory)
+            return false;
+    }
+    if (exchange) {
+        char *memory = r->memory;
+        memcpy(p->memory + FRONT, memory + cut, left);
+        r->memory = p->memory;
+        p->memory = memory;
+        p->bytes = memory + r->begin;
+        r->scanned = r->scanned - cut + FRONT;
+        r->begin = FRONT;
+        r->end = FRONT + left;
     } else {
-        memcpy(value, r->bytes + r->begin, sizeof *value);
+        memcpy(p->memory + FRONT, r->memory + r->begin, taken);
+        p->bytes = p->memory + FRONT;
+        r->begin = cut;
     }
-    if (!isfinite(*value))
-        return NOT_FINITE;
-    r->begin += size;
-    return NO_TROUBLE;
+    p->length = taken;
+    return true;
 }
 
-/* Reads the rest of a record from the buffer. */
-static trouble read_from_buffer(record_reader *r) {
-    while (r->filled < r->fields) {
-        double *value = r->values + r->filled;
-        trouble t = r->format == RECORD_ASCII ? read_word(r, value) : read_binary(r, value);
-        if (t)
-            return t;
-        r->filled++;
-    }
-    return NO_TROUBLE;
+static void set_out_of_memory(record_trouble *t) {
+    record_note(t, "out of memory");
+    t->status = GRAZE_SYSTEM_ERROR;
+    t->error = ENOMEM;
 }
 
-/* The word at `begin` for a message: cut, and without bytes that would garble it. */
-static void copy_word(const record_reader *r, char text[48]) {
-    size_t length = word_end(r) - r->begin, shown = length > 40 ? 40 : length;
-    for (size_t i = 0; i < shown; i++) {
-        char c = r->bytes[r->begin + i];
-        text[i] = c < ' ' || c == 127 ? '?' : c;
-    }
-    memcpy(text + shown, length > shown ? "..." : "", length > shown ? 4 : 1);
+/* Moves the place, and what has been counted, on to `cut`. */
+static void advance_to(record_reader *r, size_t cut) {
+    const char *begin = r->memory + r->begin, *p = r->memory + cut;
+    size_t lines = r->lines;
+    r->words = r->lines = 0;
+    record_count_ends(p, r->scanned - cut, &r->words, &r->lines);
+    lines -= r->lines;
+    r->line = lines < (size_t)(INT_MAX - r->line) ? r->line + (int)lines : INT_MAX;
+    while (p > begin && p[-1] != '\n')
+        p--;
+    r->column = cut - (size_t)(p - r->memory) + (lines ? 0 : r->column);
 }
 
-static graze_status report_trouble(const record_reader *r, trouble t) {
-    unsigned long long record = r->record;
-    place where = {.file = r->name};
-    if (r->format != RECORD_ASCII) {
-        if (t == NOT_FINITE)
-            return report_error(r->report, &where, "record %llu: its number %zu is not finite", record, r->filled + 1);
-        size_t size = r->format == RECORD_FLOAT ? sizeof(float) : sizeof(double);
-        return report_error(r->report, &where, "record %llu is cut short: %zu of %zu bytes", record,
-                            r->filled * size + (r->end - r->begin), r->fields * size);
+static void give(record_reader *r, record_portion *p, size_t count) {
+    size_t cut = r->record_size ? r->begin + count * r->record_size : find_cut(r);
+    if (!r->record_size)
+        advance_to(r, cut);
+    if (!hand_over(r, p, cut)) {
+        r->finished = true;
+        set_out_of_memory(&p->trouble);
+        return;
     }
-    where.line = r->line;
-    where.column = r->line_offset < INT_MAX ? (int)r->line_offset + 1 : 0;
-    if (t == NOTHING_AT_HAND)
-        return report_error(r->report, &where, "record %llu is cut short: %zu of %zu numbers", record, r->filled,
-                            r->fields);
-    char word[48];
-    copy_word(r, word);
-    return report_error(r->report, &where, "record %llu: '%s' is %s", record, word,
-                        t == NOT_FINITE ? "too large a number" : "not a number");
+    p->count = count;
+    r->record += count;
 }
 
-/* Reports what is wrong where no record could be read; at the input's proper end nothing is. */
-static graze_status stop(record_reader *r, trouble t) {
-    if (t == NOTHING_AT_HAND && r->error) {
-        errno = r->error;
-        r->status = report_system_error(r->report, &(place){.file = r->name}, "cannot read");
-    } else if (t != NOTHING_AT_HAND || r->filled > 0 || r->begin < r->end) {
-        r->status = report_trouble(r, t);
-    }
-    return r->status;
-}
+/* --- What is wrong where there is no whole record ---------------------------------------------------------------- */
 
-graze_status record_read(record_reader *r, double *values, size_t capacity, size_t *count) {
-    *count = 0;
-    while (!r->status && *count < capacity) {
-        trouble t = read_from_buffer(r);
-        if (t == NO_TROUBLE) {
-            memcpy(values + *count * r->fields, r->values, r->fields * sizeof *values);
-            r->filled = 0;
-            r->record++;
-            ++*count;
-        } else if (t == NOTHING_AT_HAND && !r->ended) {
-            if (*count > 0 && !is_readable(r->descriptor))
-                break;
-            fill(r);
-        } else {
-            return *count > 0 ? GRAZE_OK : stop(r, t);
+/* The first of an incomplete record's words that is no number, or else what `text` says of the record. */
+static void set_words_trouble(record_reader *r, record_portion *p) {
+    const char *at = r->memory + r->begin, *limit = r->memory + r->end;
+    double value;
+    p->bytes = at;
+    for (size_t i = 0; i < r->words; i++)
+        if (record_scan_words(&at, limit, &value, 1) == 0) {
+            record_set_word_trouble(p, 0, at, limit);
+            break;
         }
+    p->bytes = NULL;
+}
+
+static void set_cut_short(record_reader *r, record_portion *p) {
+    unsigned long long record = r->record + 1;
+    if (r->record_size) {
+        if (r->end > r->begin)
+            record_note(&p->trouble, "record %llu is cut short: %zu of %zu bytes", record, r->end - r->begin,
+                        r->record_size);
+        return;
     }
-    return r->status;
+    if (r->words == 0)
+        return;
+    record_note(&p->trouble, "record %llu is cut short: %zu of %zu numbers", record, r->words, r->fields);
+    /* The input ends before the blank that was put there. */
+    advance_to(r, r->end - 1);
+    record_note_place(&p->trouble, r->line, r->column);
+}
+
+/* Notes what is wrong; at the input's proper end nothing is. */
+static void stop(record_reader *r, record_portion *p) {
+    r->finished = true;
+    set_words_trouble(r, p);
+    if (p->trouble.status)
+        return;
+    if (!r->ended) {
+        record_note(&p->trouble, "record %llu is longer than %zu bytes", (unsigned long long)r->record + 1, r->room);
+        record_note_place(&p->trouble, r->line, r->column);
+    } else if (r->error) {
+        record_note(&p->trouble, "cannot read");
+        p->trouble.status = GRAZE_SYSTEM_ERROR;
+        p->trouble.error = r->error;
+    } else {
+        set_cut_short(r, p);
+    }
+}
+
+/* Blanks before a record do not count in its length. */
+static void skip_blanks(record_reader *r) {
+    size_t begin = r->begin;
+    while (begin < r->scanned && text_is_blank(r->memory[begin]))
+        begin++;
+    advance_to(r, begin);
+    r->begin = begin;
+}
+
+/* How much to read at most, to get on to `capacity` records without much behind them; 0: there is no room. */
+static size_t plan_read(record_reader *r, size_t capacity) {
+    size_t room = make_room(r);
+    if (room == 0 && !r->record_size) {
+        skip_blanks(r);
+        room = make_room(r);
+    }
+    size_t records = r->room / (r->record_size ? r->record_size : 1);
+    if (!r->record_size || capacity >= records || capacity * r->record_size < READ_AT_LEAST)
+        return room;
+    size_t needed = capacity * r->record_size - (r->end - r->begin);
+    return needed < room ? needed : room;
+}
+
+bool record_read(record_reader *r, record_portion *p, size_t capacity) {
+    p->first = r->record;
+    p->count = p->length = 0;
+    p->trouble.status = GRAZE_OK;
+    p->format = r->format;
+    p->fields = r->fields;
+    size_t count = 0;
+    while (!r->finished) {
+        count = count_records(r, capacity);
+        if (count == capacity || r->ended)
+            break;
+        size_t most = plan_read(r, capacity);
+        if (most == 0 || (count > 0 && !is_readable(r, false)))
+            break;
+        if (count > 0 || is_readable(r, true))
+            fill(r, most);
+    }
+    if (r->finished)
+        return false;
+    p->line = r->line;
+    p->column = r->column;
+    if (count > 0)
+        give(r, p, count);
+    else
+        stop(r, p);
+    return p->count > 0 || p->trouble.status;
+}
+
+graze_status record_report_trouble(const record_reader *r, const record_portion *p) {
+    const record_trouble *t = &p->trouble;
+    const place where = {.file = r->name, .line = t->line, .column = t->column};
+    if (!t->status)
+        return GRAZE_OK;
+    if (t->status != GRAZE_SYSTEM_ERROR)
+        return report_error(r->report, &where, "%s", t->text);
+    if (t->error == ENOMEM)
+        return report_out_of_memory(r->report);
+    errno = t->error;
+    return report_system_error(r->report, &where, "%s", t->text);
 }

@@ -10,20 +10,63 @@
 
 typedef enum record_format { RECORD_ASCII = 'a', RECORD_FLOAT = 'f', RECORD_DOUBLE = 'd' } record_format;
 
+/* What ends a stream before its proper end. */
+enum { RECORD_TROUBLE_SIZE = 256 };
+typedef struct record_trouble {
+    graze_status status; /* GRAZE_OK: there is none */
+    int error;           /* the errno that goes with GRAZE_SYSTEM_ERROR */
+    int line, column;    /* 0: not known */
+    char text[RECORD_TROUBLE_SIZE];
+} record_trouble;
+
+/* Some whole records as they came, before anyone has looked at their numbers: reading is the one step that cannot be
+ * shared out among threads, so it does no more than find where records end. Begins as {0}. */
+typedef struct record_portion {
+    uint64_t first;         /* number of the first record, from 0 */
+    size_t count;           /* of records */
+    record_trouble trouble; /* with the record behind them */
+
+    record_format format;
+    size_t fields;
+    const char *bytes; /* of the records, aligned for their numbers; ASCII ends with a blank */
+    size_t length;
+    int line; /* where the first byte stands, from 1; and how many of its line are before it */
+    size_t column;
+    char *memory;
+    size_t capacity;
+} record_portion;
+void record_portion_free(record_portion *);
+
 typedef struct record_reader record_reader;
 
 /* Reads records of `fields` (at least 1) reals from the file descriptor. `name` stands in messages ("standard input").
+ * A record may span lines; in ASCII it may be 100 kB long, or 64 bytes a field if that is more.
  */
 graze_status record_reader_open(record_reader **, int descriptor, const char *name, record_format, int fields,
                                 const graze_report *);
 void record_reader_close(record_reader *); /* leaves the descriptor open; null is let pass */
 
-/* Reads up to `capacity` records into `values` (capacity * fields doubles). Blocks for the first; then gives what is at
- * hand without blocking again, so that an interactive client is answered. *count = 0: the input has ended.
- * An ASCII word that is no number, a record cut short, a number that is not finite, or a failing read: the records
- * before it are given with GRAZE_OK first; the next call reports the trouble with the record's number (from 1) and, for
- * ASCII, its line and column, and returns the error, as do all later calls, without a text. */
-graze_status record_read(record_reader *, double *values, size_t capacity, size_t *count);
+/* Reads up to `capacity` (at least 1) records. Blocks for the first; then gives what is at hand without blocking again,
+ * so that an interactive client is answered. A record cut short or a failing read is the trouble of the portion that
+ * ends there, which may hold no records. Gives false, and an empty portion, when there is nothing more. Nothing is
+ * reported: troubles with earlier portions may not be known yet. */
+bool record_read(record_reader *, record_portion *, size_t capacity);
+
+/* Ends the input for a read that waits for it and for all later ones. The one call that may be made while another
+ * thread is in record_read. */
+void record_reader_cancel(record_reader *);
+
+/* A portion's numbers, record after record: where they are, or converted into `room` (for count * fields doubles).
+ * Where a word is no number, or a number is not finite, the portion is cut down to the records before and the trouble
+ * noted. */
+const double *record_doubles(record_portion *, double *room);
+/* The same for RECORD_FLOAT without conversion. */
+const float *record_floats(record_portion *);
+
+/* Cuts a portion down to its first `count` records, and notes what is wrong with the next: "record N: TEXT". */
+void record_set_trouble(record_portion *, size_t count, const char *text);
+/* Reports the trouble of a portion, if there is any, and gives its status. */
+graze_status record_report_trouble(const record_reader *, const record_portion *);
 
 /* A growing buffer of output bytes, filled by one worker and written in order by one writer. */
 typedef struct record_buffer {
@@ -39,6 +82,8 @@ void record_append_text(record_buffer *, const char *text);
  * Radiance's
  * `%e`), each followed by a tab. */
 void record_append_reals(record_buffer *, record_format, int digits, const double *values, size_t count);
+/* Appends `count` records of `fields` finite reals: as above, in ASCII with a line's end behind each record. */
+void record_append_records(record_buffer *, record_format, int digits, const double *values, size_t count, int fields);
 /* Writes all bytes to the descriptor and empties the buffer. EPIPE, ENOSPC and the like are system errors, as is a
  * buffer that has failed. */
 graze_status record_buffer_write(record_buffer *, int descriptor, const char *name, const graze_report *);

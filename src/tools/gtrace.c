@@ -32,8 +32,7 @@ typedef struct job {
     atomic_ullong unconverged;
 } job;
 
-static void answer_ray(void *user, const double *record, uint64_t number, record_buffer *out) {
-    job *j = user;
+static void answer_ray(job *j, const double *record, uint64_t number, record_buffer *out) {
     graze_ray ray = {.origin = {record[0], record[1], record[2]}, .direction = {record[3], record[4], record[5]}};
     graze_hit hit = {.distance = GRAZE_FAR, .point = ray.origin};
     graze_answer answer = {.converged = 1};
@@ -49,6 +48,14 @@ static void answer_ray(void *user, const double *record, uint64_t number, record
     if (!answer.converged)
         atomic_fetch_add(&j->unconverged, 1);
     ray_output_append(&j->output, out, &ray, &hit, &answer);
+}
+
+static size_t answer_rays(void *user, const record_block *block, int worker, record_buffer *out, char *trouble) {
+    (void)worker;
+    (void)trouble;
+    for (size_t i = 0; i < block->count; i++)
+        answer_ray(user, block->values + i * RAY_FIELDS, block->first + i, out);
+    return block->count;
 }
 
 static graze_status write_header(const job *j, const tool_arguments *arguments, const graze_report *report) {
@@ -94,13 +101,13 @@ static graze_status prepare(job *j, const tool_arguments *arguments, const graze
     return status;
 }
 
-static graze_status answer_rays(job *j, const tool_arguments *arguments, const graze_report *report) {
+static graze_status answer_input(job *j, const tool_arguments *arguments, const graze_report *report) {
     const gtrace_options *o = j->options;
     record_filter filter = {.fields = RAY_FIELDS,
                             .chunk_records = CHUNK_RAYS,
                             .threads = o->render.threads,
                             .user = j,
-                            .answer = answer_ray};
+                            .answer = answer_rays};
     uint64_t count = 0;
     if (o->rows > 0)
         filter.wanted = (uint64_t)o->rows * (uint64_t)(o->columns > 1 ? o->columns : 1);
@@ -126,7 +133,7 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
         status = graze_scene_load(&j.scene, arguments->operands, (size_t)arguments->operand_count,
                                   j.options->render.threads, report);
     if (status == GRAZE_OK)
-        status = answer_rays(&j, arguments, report);
+        status = answer_input(&j, arguments, report);
     graze_scene_destroy(j.scene);
     return status;
 }

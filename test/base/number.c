@@ -1,6 +1,7 @@
 /* Numbers against the C library, correctly rounded in every locale. */
 #include "base/number.h"
 
+#include <fcntl.h>
 #include <float.h>
 #include <limits.h>
 #include <locale.h>
@@ -12,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,14 +33,43 @@ static uint64_t bits_of(double value) {
     return bits;
 }
 
-/* number_scan gives strtod's bits, and takes the whole text. */
+static double double_of(uint64_t bits) {
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* The first byte of a page that cannot be read, behind one that can be written: memory up to the very end. */
+static char *barrier;
+
+static int make_barrier(void **state) {
+    (void)state;
+    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    int zeros = open("/dev/zero", O_RDWR);
+    char *pages = mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE, zeros, 0);
+    close(zeros);
+    if (pages == MAP_FAILED || mprotect(pages + page, page, PROT_NONE) != 0)
+        return -1;
+    barrier = pages + page;
+    return 0;
+}
+
+/* number_scan gives strtod's bits, and takes the whole text, whatever follows, with up to 47 bytes or nothing at all.
+ */
 static void check(const char *text) {
-    double expected = strtod(text, NULL), value = NAN;
-    const char *end = text + strlen(text);
-    if (number_scan(text, end, &value) != end)
-        fail_msg("'%s' was not taken whole", text);
+    double expected = strtod(text, NULL);
+    size_t length = strlen(text), more = bits_of(expected) % 2 ? bits_of(expected) / 2 % 48 : 0;
+    char longer[1500];
+    if (length + more < sizeof longer) {
+        memcpy(longer, text, length);
+        memset(longer + length, "\t ,x-+/\xb2"[length % 8], more);
+        text = memcpy(barrier - length - more, longer, length + more);
+    }
+    double value = NAN;
+    if (number_scan(text, text + length + more, &value) != text + length)
+        fail_msg("'%.*s' was not taken whole", (int)length, text);
     if (bits_of(value) != bits_of(expected))
-        fail_msg("'%s' became %a, not %a", text, value, expected);
+        fail_msg("'%.*s' became %a, not %a", (int)length, text, value, expected);
 }
 
 static void test_random_doubles(void **state) {
@@ -112,6 +143,9 @@ static void test_extremes(void **state) {
                                         "-0e5",
                                         "0e999999999999999999999",
                                         "1e-999999999999999999999",
+                                        "1e-400",
+                                        "0e999999999999",
+                                        "9e308",
                                         "4.9e-324",
                                         "2.4e-324",
                                         "2.5e-324",
@@ -236,18 +270,82 @@ static void test_printing(void **state) {
     assert_string_equal(text, "inf");
     number_print_exact(text, fabs(NAN));
     assert_string_equal(text, "nan");
+}
+
+/* One of the kinds of values that printing may stumble over. */
+static double odd_value(uint64_t *seed) {
+    uint64_t bits = random_bits(seed), other = random_bits(seed);
+    double value;
+    switch (bits % 7) {
+    case 0: /* anything */
+        return double_of(other);
+    case 1: /* a direction's part */
+        return (double)(int64_t)other * 0x1p-63;
+    case 2: /* few bits, many ties */
+        return ldexp((double)(int64_t)(other >> (other % 64)), (int)(bits >> 8 & 63) - 32);
+    case 3: /* subnormal */
+        return double_of((other >> 12 >> (bits >> 8) % 52) | (other << 63));
+    case 4: /* about a power of ten */
+        return double_of(bits_of(pow(10, (int)(other % 617) - 308)) + (bits >> 8) % 7 - 3);
+    case 5: /* about a power of two */
+        value = ldexp(1, (int)(other % 2000) - 1000);
+        return double_of(bits_of(value) + (bits >> 8) % 5 - 2);
+    default: /* few decimals */
+        return floor((double)(other >> (11 + (bits >> 8) % 40))) / pow(10, (int)(bits >> 20) % 18);
+    }
+}
+
+static void check_printing(int digits, double value) {
+    char text[NUMBER_TEXT_SIZE], expected[NUMBER_TEXT_SIZE];
+    size_t length = number_print(text, digits, value);
+    snprintf(expected, sizeof expected, digits > 0 ? "%.*g" : "%.*e", digits > 0 ? digits : 6, value);
+    if (length != strlen(expected) || strcmp(text, expected) != 0)
+        fail_msg("%a became '%s' with %d digits, not '%s'", value, text, digits, expected);
+}
+
+static void test_printing_like_printf(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    for (int i = 0; i < 400000; i++) {
+        double value = odd_value(&seed);
+        check_printing(DBL_DECIMAL_DIG, value);
+        check_printing((int)(random_bits(&seed) % 21), value);
+    }
+    for (int power = -1074; power < 1024; power++)
+        for (int digits = 0; digits <= DBL_DECIMAL_DIG; digits++)
+            check_printing(digits, ldexp(power % 2 ? -1 : 1, power));
+}
+
+/* Two to seven digits and a 5: with one digit less, exactly in the middle. */
+static void test_printing_ties(void **state) {
+    (void)state;
+    for (int number = 15; number < 1000000; number += number < 10000 ? 10 : 1230) {
+        int digits = (int)floor(log10(number));
+        for (int power = -40; power < 40; power++)
+            check_printing(digits, ldexp(number, power));
+        for (double tens = 10; tens < 1e14; tens *= 10)
+            check_printing(digits, number * tens);
+    }
+    char text[NUMBER_TEXT_SIZE];
+    number_print(text, 6, 1234565);
+    assert_string_equal(text, "1.23456e+06");
+    number_print(text, 6, 1234575);
+    assert_string_equal(text, "1.23458e+06");
+}
+
+static void test_round_trip(void **state) {
+    (void)state;
     uint64_t seed = 4;
-    for (int i = 0; i < 100000; i++) {
-        uint64_t bits = random_bits(&seed);
-        double value, back;
-        memcpy(&value, &bits, sizeof value);
+    for (int i = 0; i < 400000; i++) {
+        double value = odd_value(&seed), back;
         if (!isfinite(value))
             continue;
-        number_print(text, 17, value);
-        if (!text_to_real(text, &back) || bits_of(back) != bits)
+        char text[NUMBER_TEXT_SIZE];
+        number_print(text, DBL_DECIMAL_DIG, value);
+        if (!text_to_real(text, &back) || bits_of(back) != bits_of(value))
             fail_msg("%a came back from '%s' as %a", value, text, back);
         number_print_exact(text, value);
-        if (!text_to_real(text, &back) || bits_of(back) != bits)
+        if (!text_to_real(text, &back) || bits_of(back) != bits_of(value))
             fail_msg("%a came back from '%s' as %a", value, text, back);
     }
 }
@@ -296,17 +394,23 @@ static void test_comma_locale(void **state) {
         double value = 0, slow = 0;
         snprintf(text, sizeof text, "%.2f", 1.25);
         int comma = strcmp(text, "1,25") == 0;
-        int read = text_to_real("1.25", &value) && text_to_real("1.234567890123456789012e-200", &slow);
-        char fixed[NUMBER_TEXT_SIZE], scientific[NUMBER_TEXT_SIZE];
+        /* 2^53 + 1 in a manner that leaves it to the C library. */
+        int read = text_to_real("1.25", &value) && text_to_real("0.90071992547409930000001e16", &slow);
+        /* The last two are left to the C library: more digits, and a tie. */
+        char fixed[NUMBER_TEXT_SIZE], scientific[NUMBER_TEXT_SIZE], many[NUMBER_TEXT_SIZE], tie[NUMBER_TEXT_SIZE];
         number_print(fixed, 17, 1234567.25);
         number_print(scientific, 0, -1.25e-7);
+        number_print(many, 20, 0x1p-3);
+        number_print(tie, 6, 1234565);
         int refused = !text_to_real("1,25", &(double){0});
         setlocale(LC_NUMERIC, "C");
         remove_directory(directory);
         assert_true(comma);
-        assert_true(read && refused && value == 1.25 && slow == 1.234567890123456789012e-200);
+        assert_true(read && refused && value == 1.25 && slow == 9007199254740994);
         assert_string_equal(fixed, "1234567.25");
         assert_string_equal(scientific, "-1.250000e-07");
+        assert_string_equal(many, "0.125");
+        assert_string_equal(tie, "1.23456e+06");
     } else {
         remove_directory(directory);
         skip();
@@ -315,12 +419,20 @@ static void test_comma_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_doubles), cmocka_unit_test(test_random_decimals),
-        cmocka_unit_test(test_midpoints),      cmocka_unit_test(test_extremes),
-        cmocka_unit_test(test_long_texts),     cmocka_unit_test(test_malformed_words),
-        cmocka_unit_test(test_scan_stops),     cmocka_unit_test(test_integers),
-        cmocka_unit_test(test_printing),       cmocka_unit_test(test_floats),
+        cmocka_unit_test(test_random_doubles),
+        cmocka_unit_test(test_random_decimals),
+        cmocka_unit_test(test_midpoints),
+        cmocka_unit_test(test_extremes),
+        cmocka_unit_test(test_long_texts),
+        cmocka_unit_test(test_malformed_words),
+        cmocka_unit_test(test_scan_stops),
+        cmocka_unit_test(test_integers),
+        cmocka_unit_test(test_printing),
+        cmocka_unit_test(test_floats),
+        cmocka_unit_test(test_printing_like_printf),
+        cmocka_unit_test(test_printing_ties),
+        cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_comma_locale),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_barrier, NULL);
 }

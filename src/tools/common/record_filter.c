@@ -7,23 +7,16 @@
 #include "base/parallel.h"
 
 typedef struct chunk {
-    uint64_t first; /* number of the first record */
-    size_t count;
-    double *records;
+    record_portion portion;
     record_buffer output;
 } chunk;
 
 typedef struct run {
     const record_filter *filter;
-    uint64_t read;
-    char trouble[128]; /* what is wrong with the record behind them, or nothing */
+    double **values; /* for each worker: the numbers of its block */
+    uint64_t read, answered;
     const graze_report *report;
 } run;
-
-static graze_status report_trouble(const run *r) {
-    return report_error(r->report, &(place){.file = "standard input"}, "record %llu: %s",
-                        (unsigned long long)r->read + 1, r->trouble);
-}
 
 static size_t room(const run *r) {
     size_t chunk_records = (size_t)r->filter->chunk_records;
@@ -31,72 +24,87 @@ static size_t room(const run *r) {
     return left < chunk_records ? (size_t)left : chunk_records;
 }
 
-static bool is_answerable(run *r, const double *record) {
-    const record_filter *f = r->filter;
-    return !f->check || f->check(f->user, record, r->trouble, sizeof r->trouble);
-}
-
-/* Records before one that is wrong are answered first; the next call then reports that one. */
 static graze_status read_chunk(void *user, void *memory, bool *more) {
     run *r = user;
     chunk *c = memory;
-    const record_filter *f = r->filter;
-    *more = false;
-    if (r->trouble[0])
-        return report_trouble(r);
-    size_t capacity = room(r), count = 0;
-    graze_status status = capacity ? record_read(f->reader, c->records, capacity, &count) : GRAZE_OK;
-    c->first = r->read;
-    c->count = 0;
-    while (c->count < count && is_answerable(r, &c->records[c->count * (size_t)f->fields]))
-        c->count++;
-    r->read += c->count;
-    *more = c->count > 0;
-    if (*more)
-        return status;
-    if (r->trouble[0])
-        return report_trouble(r);
-    if (status == GRAZE_OK && r->read < f->wanted)
-        return report_error(r->report, NULL, "standard input ended after %llu of %llu records",
-                            (unsigned long long)r->read, (unsigned long long)f->wanted);
-    return status;
+    size_t capacity = room(r);
+    *more = capacity > 0 && record_read(r->filter->reader, &c->portion, capacity);
+    r->read += *more ? c->portion.count : 0;
+    return GRAZE_OK;
 }
 
+/* Whatever is wrong becomes the chunk's trouble, and is reported when its turn comes to be written: only then is it
+ * known that nothing before it is wrong. */
 static void answer_chunk(void *user, void *memory, int worker) {
-    (void)worker;
-    const record_filter *f = ((const run *)user)->filter;
+    const run *r = user;
+    const record_filter *f = r->filter;
     chunk *c = memory;
-    for (size_t i = 0; i < c->count; i++)
-        f->answer(f->user, &c->records[i * (size_t)f->fields], c->first + i, &c->output);
+    record_portion *p = &c->portion;
+    if (p->count > 0) {
+        record_block block = {.first = p->first};
+        if (f->floats)
+            block.floats = record_floats(p);
+        else
+            block.values = record_doubles(p, r->values[worker]);
+        block.count = p->count;
+        char trouble[RECORD_TROUBLE_SIZE] = "";
+        size_t answered = block.count ? f->answer(f->user, &block, worker, &c->output, trouble) : 0;
+        if (answered < block.count)
+            record_set_trouble(p, answered, trouble);
+    }
+    if (p->trouble.status)
+        record_reader_cancel(f->reader);
 }
 
 static graze_status write_chunk(void *user, void *memory) {
-    return record_buffer_write(&((chunk *)memory)->output, STDOUT_FILENO, "standard output", ((run *)user)->report);
+    run *r = user;
+    const record_filter *f = r->filter;
+    chunk *c = memory;
+    graze_status status = record_buffer_write(&c->output, STDOUT_FILENO, "standard output", r->report);
+    if (status == GRAZE_OK) {
+        r->answered += c->portion.count;
+        status = record_report_trouble(f->reader, &c->portion);
+    }
+    if (status)
+        record_reader_cancel(f->reader);
+    return status;
+}
+
+static graze_status run_pipeline(run *r, chunk *chunks, void **places, int chunk_count) {
+    const record_filter *f = r->filter;
+    size_t numbers = (size_t)f->chunk_records * (size_t)f->fields;
+    for (int i = 0; i < chunk_count; i++)
+        places[i] = &chunks[i];
+    for (int i = 0; i < f->threads && !f->floats; i++) {
+        r->values[i] = malloc(numbers * sizeof *r->values[i]);
+        if (!r->values[i])
+            return report_out_of_memory(r->report);
+    }
+    const pipeline p = {f->threads, places, chunk_count, r, read_chunk, answer_chunk, write_chunk};
+    graze_status status = pipeline_run(&p, r->report);
+    if (status == GRAZE_OK && r->answered < f->wanted)
+        status = report_error(r->report, NULL, "standard input ended after %llu of %llu records",
+                              (unsigned long long)r->answered, (unsigned long long)f->wanted);
+    return status;
 }
 
 graze_status record_filter_run(const record_filter *f, uint64_t *count, const graze_report *report) {
-    run r = {.filter = f, .report = report};
     int chunk_count = 3 * f->threads;
-    size_t numbers = (size_t)f->chunk_records * (size_t)f->fields;
     chunk *chunks = calloc((size_t)chunk_count, sizeof *chunks);
     void **places = calloc((size_t)chunk_count, sizeof *places);
-    double *records = calloc((size_t)chunk_count * numbers, sizeof *records);
-    graze_status status = GRAZE_OK;
-    if (!chunks || !places || !records) {
-        status = report_out_of_memory(report);
-    } else {
-        for (int i = 0; i < chunk_count; i++) {
-            chunks[i].records = records + (size_t)i * numbers;
-            places[i] = &chunks[i];
-        }
-        const pipeline p = {f->threads, places, chunk_count, &r, read_chunk, answer_chunk, write_chunk};
-        status = pipeline_run(&p, report);
-        for (int i = 0; i < chunk_count; i++)
-            record_buffer_free(&chunks[i].output);
+    double **values = calloc((size_t)f->threads, sizeof *values);
+    run r = {.filter = f, .values = values, .report = report};
+    graze_status status =
+        chunks && places && values ? run_pipeline(&r, chunks, places, chunk_count) : report_out_of_memory(report);
+    for (int i = 0; i < chunk_count && chunks; i++) {
+        record_portion_free(&chunks[i].portion);
+        record_buffer_free(&chunks[i].output);
     }
-    free(records);
+    for (int i = 0; i < f->threads && values; i++)
+        free(values[i]);
+    free(values);
     free(places);
     free(chunks);
-    *count = r.read;
+    *count = r.answered;
     return status;
 }

@@ -7,22 +7,31 @@
 
 #include "base/records.h"
 
+/* Consecutive records, all numbers finite. */
+typedef struct record_block {
+    uint64_t first; /* number of the first, from 0 */
+    size_t count;
+    const double *values; /* count x fields, record after record; null where the filter wants floats */
+    const float *floats;
+} record_block;
+
 typedef struct record_filter {
     record_reader *reader;
     int fields;        /* of a record */
     int chunk_records; /* that go through together: enough to make a thread's turn worthwhile, few enough to share out
                           evenly */
+    bool floats;       /* blocks hold floats; the reader's format has to be RECORD_FLOAT */
     int threads;
     uint64_t wanted; /* stop after so many records, and it is an error if there are fewer; 0: all there are */
     void *user;
-    /* May be null. Says what is wrong with a record that cannot be answered, and returns false. */
-    bool (*check)(const void *user, const double *record, char *trouble, size_t trouble_size);
-    /* Appends the answer to record `number`, counted from 0. Called from several threads. */
-    void (*answer)(void *user, const double *record, uint64_t number, record_buffer *);
+    /* Appends the answers to the records of a block, in order; `worker` in [0, threads). Where a record cannot be
+     * answered it gives how many were, and writes what is wrong with the next one, without its number, into `trouble`
+     * (of RECORD_TROUBLE_SIZE). */
+    size_t (*answer)(void *user, const record_block *, int worker, record_buffer *, char *trouble);
 } record_filter;
 
 /* Reads from the reader, writes to standard output. A record that is wrong ends the run with an error that names its
- * number, after all before it have been answered. *count is the number of records read. */
+ * number, after all before it have been answered. *count is the number of records answered. */
 graze_status record_filter_run(const record_filter *, uint64_t *count, const graze_report *);
 
 #endif
