@@ -3,6 +3,7 @@
 #define GRAZE_GRAZE_H
 
 #include "graze/brdf.h"
+#include "graze/brdf_batch.h"
 #include "graze/error.h"
 #include "graze/material.h"
 #include "graze/scene.h"

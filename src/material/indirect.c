@@ -1,20 +1,20 @@
 /* Indirect light: directions drawn for one lobe of a surface, with the weights of Eq. 16, and their densities. */
-#include "base/angle.h"
 #include "material/lobes.h"
 
 static graze_surface_sample reject(const graze_surface *s) {
     return (graze_surface_sample){s->n, {0, 0, 0}, 0};
 }
 
-/* The direction of a point of the unit disk on the hemisphere above it. */
 static graze_surface_sample sample_diffuse(const graze_surface *s, double u, double v) {
-    double radius = sqrt(u), angle = 2 * PI * v;
-    vec3 l = {radius * cos(angle), radius * sin(angle), sqrt(1 - u)};
+    graze_brdf_sample sample = graze_diffuse_sample((vec3){0, 0, 1}, u, v);
     frame f = material_frame(s);
-    return (graze_surface_sample){frame_to_world(&f, l), material_diffuse_reflectance(s, l.z), l.z * INV_PI};
+    return (graze_surface_sample){frame_to_world(&f, sample.l), material_diffuse_reflectance(s, sample.l.z),
+                                  sample.density};
 }
 
 static graze_surface_sample sample_glossy(const graze_surface *s, double u, double v, double w) {
+    if (!(s->local_view.z > 0))
+        return reject(s);
     graze_brdf_sample sample = graze_brdf_sample_pair(&s->lobe, s->local_view, u, v, w);
     frame f = material_frame(s);
     return (graze_surface_sample){frame_to_world(&f, sample.l), rgb_scale(sample.weight, s->specular), sample.density};
@@ -42,7 +42,7 @@ double graze_surface_density(const graze_surface *s, graze_lobe lobe, graze_vec3
     if (!(local.z > 0))
         return 0;
     if (lobe == GRAZE_LOBE_DIFFUSE)
-        return local.z * INV_PI;
+        return graze_diffuse_density(local, (vec3){0, 0, 1});
     if (lobe == GRAZE_LOBE_GLOSSY && s->specular_lobe == GRAZE_LOBE_GLOSSY)
         return graze_brdf_pair_density(&s->lobe, local, s->local_view);
     return 0;

@@ -1,210 +1,165 @@
-/* Value, densities and weights against arbitrary precision, in units in the last place, and the promises of brdf.h. */
+/* Value, densities and weights against arbitrary precision, in units in the last place, and the promises of brdf.h and
+ * brdf_batch.h: the short form of `make accuracy`. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
 #include <cmocka.h>
 
-#include "accuracy/reference.h"
-#include "brdf/common.h"
+#include "accuracy/check.h"
 
-enum { VALUE, WARD_DENSITY, WARD_WEIGHT, PAIR_DENSITY, PAIR_WEIGHT, FUNCTIONS };
-static const char *const function_names[] = {"value", "Ward density", "Ward weight", "pair density", "pair weight"};
-/* What include/graze/brdf.h promises. */
-static const double promised[FUNCTIONS] = {1.6, 1.6, 1, 1.6, 1};
+/* Groups of pairs of each kind. */
+static int groups(void) {
+    return is_short_run() ? 20 : 300;
+}
 
-static double computed(int function, const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
-    switch (function) {
-    case VALUE:
-        return graze_brdf_value(brdf, l, v);
-    case WARD_DENSITY:
-        return graze_brdf_ward_density(brdf, l, v);
-    case WARD_WEIGHT:
-        return graze_brdf_ward_weight(brdf, l, v);
-    case PAIR_DENSITY:
-        return graze_brdf_pair_density(brdf, l, v);
-    default:
-        return graze_brdf_pair_weight(brdf, l, v);
+static void fail_where_broken(const accuracy_tally *t, const char *kind, const char *format, const double *bounds) {
+    char text[CASE_TEXT];
+    if (t->unlike > 0)
+        fail_msg("%s pairs: the batch's %s is %a, not what the scalar function says, at %s", kind,
+                 accuracy_rows[(int)t->first_unlike.ulps].name, t->first_unlike.result,
+                 accuracy_text(&t->first_unlike.in, text));
+    if (t->broken == 0)
+        return;
+    for (int row = 0; row < ROWS; ++row) {
+        const accuracy_worst *worst = &t->worst[row];
+        if (!(worst->ulps <= bounds[accuracy_rows[row].function]))
+            fail_msg("%s pairs, %s: %s is %g ulp off: %a at %s", kind, format, accuracy_rows[row].name, worst->ulps,
+                     worst->result, accuracy_text(&worst->in, text));
     }
+    fail_msg("%s pairs, %s: a result below the normal numbers is off", kind, format);
 }
 
-static mpfr_ptr exact(int function, reference_terms *r) {
-    mpfr_ptr results[] = {r->value, r->pdf, r->weight, r->pair_pdf, r->pair_weight};
-    return results[function];
-}
-
-/* All functions of all models at one pair; worst errors so far in worst[]. */
-static void check(reference_terms *r, reference_case *in, double *worst) {
-    graze_vec3 l = {in->l[0], in->l[1], in->l[2]}, v = {in->v[0], in->v[1], in->v[2]};
-    for (int model = REFERENCE_GMD; model <= REFERENCE_WARD_NEUMANN; ++model) {
-        const graze_brdf brdf = {(graze_brdf_model)model, in->alpha_x, in->alpha_y};
-        in->model = (reference_model)model;
-        reference_evaluate(r, in);
-        for (int function = 0; function < FUNCTIONS; ++function) {
-            double number = computed(function, &brdf, l, v), ulps = reference_ulps(number, exact(function, r));
-            worst[function] = fmax(worst[function], ulps);
-            if (!(ulps <= promised[function]))
-                fail_msg("%s of model %d is %g ulp off: %a for alpha %a %a, l %a %a %a, v %a %a %a",
-                         function_names[function], model, ulps, number, in->alpha_x, in->alpha_y, l.x, l.y, l.z, v.x,
-                         v.y, v.z);
+static void survey(accuracy_tally *t, const pair_kind *kind, bool in_float, uint64_t seed) {
+    reference r;
+    memset(t, 0, sizeof *t);
+    reference_start(&r);
+    for (int i = 0; i < groups(); ++i) {
+        pair_group g;
+        pairs_draw(&seed, kind, in_float ? 0x1.44p-100 : 1e-150, &g);
+        if (in_float) {
+            accuracy_round(&g);
+            accuracy_check_float(&r, &g, PAIRS, t);
+        } else {
+            accuracy_check(&r, &g, PAIRS, t);
         }
     }
-}
-
-static void put(double *where, graze_vec3 a) {
-    where[0] = a.x;
-    where[1] = a.y;
-    where[2] = a.z;
-}
-
-static void draw_roughness(uint64_t *seed, reference_case *in) {
-    in->alpha_x = draw_power(seed, GRAZE_ROUGHNESS_MIN, GRAZE_ROUGHNESS_MAX);
-    in->alpha_y = draw(seed) < .3 ? in->alpha_x : draw_power(seed, GRAZE_ROUGHNESS_MIN, GRAZE_ROUGHNESS_MAX);
-}
-
-static graze_vec3 draw_above(uint64_t *seed) {
-    double cosine = 1 - draw(seed);
-    return direction(cosine, draw_between(seed, 0, 2 * pi));
-}
-
-static void draw_random(uint64_t *seed, reference_case *in) {
-    put(in->l, draw_above(seed));
-    put(in->v, draw_above(seed));
-}
-
-/* l from a slope of `distance` times the roughness; below the horizon, another one is drawn. */
-static void draw_at_distance(uint64_t *seed, reference_case *in, double low, double high) {
-    do {
-        graze_vec3 v = draw_above(seed);
-        double distance = draw_between(seed, low, high), azimuth = draw_between(seed, 0, 2 * pi);
-        double x = in->alpha_x * distance * cos(azimuth), y = in->alpha_y * distance * sin(azimuth);
-        double scale = 2 * (v.x * x + v.y * y + v.z) / (1 + x * x + y * y);
-        put(in->v, v);
-        put(in->l, (graze_vec3){scale * x - v.x, scale * y - v.y, scale - v.z});
-    } while (!(in->l[2] > 0));
-}
-
-static void draw_centred(uint64_t *seed, reference_case *in) {
-    draw_at_distance(seed, in, 0, 2);
-}
-static void draw_tail(uint64_t *seed, reference_case *in) {
-    draw_at_distance(seed, in, 2, 27.5);
-}
-
-static void draw_mirror(uint64_t *seed, reference_case *in) {
-    graze_vec3 v = direction(draw_power(seed, 1e-150, 1), draw_between(seed, 0, 2 * pi));
-    put(in->v, v);
-    put(in->l, mirror_of(v));
-}
-
-static void draw_grazing(uint64_t *seed, reference_case *in) {
-    double azimuth = draw_between(seed, 0, 2 * pi);
-    double cosine = draw_power(seed, 1e-150, 1);
-    double other =
-        draw(seed) < .5 ? fmax(fmin(cosine * draw_power(seed, .01, 100), 1), 1e-150) : draw_power(seed, 1e-150, 1);
-    put(in->v, direction(cosine, azimuth));
-    put(in->l, direction(other, azimuth + (draw(seed) < .2 ? 0 : pi)));
-    if (draw(seed) < .5)
-        put(in->l, (graze_vec3){-in->v[0], -in->v[1], other});
-}
-
-/* Both grazing, side by side: the exponent takes any value, while h is tiny. */
-static void draw_grazing_lobe(uint64_t *seed, reference_case *in) {
-    double cosine = draw_power(seed, 1e-150, 1e-3), other = cosine * draw_between(seed, .001, 1);
-    double x = cosine * draw(seed);
-    put(in->v, (graze_vec3){x, 1, cosine});
-    put(in->l, (graze_vec3){in->alpha_x * (cosine + other) * draw_between(seed, -47, 47) - x, -1, other});
-}
-
-/* The slope is nearly 1 and l just above the surface: u = 1 - tau^2, and W with it, nearly vanish. */
-static void draw_vanishing_pair(uint64_t *seed, reference_case *in) {
-    double cosine = draw_power(seed, 1e-10, 1);
-    put(in->v, direction(cosine, 0));
-    double low = cosine * draw_power(seed, 1e-12, .5);
-    double slope = draw_between(seed, .9, 1) - (draw(seed) < .5 ? .1 * draw(seed) : 0);
-    if (draw(seed) < .5)
-        slope = 1 - draw_power(seed, 1e-15, .1);
-    /* h = hz (x, y, 1) with tau as drawn */
-    double turn = draw_between(seed, 0, 2 * pi), hz = cosine + low;
-    put(in->l, (graze_vec3){hz * slope * cos(turn) - in->v[0], hz * slope * sin(turn) - in->v[1], low});
-}
-
-static void check_drawn(void (*draw_case)(uint64_t *, reference_case *), uint64_t seed, int count) {
-    reference_terms r;
-    double worst[FUNCTIONS] = {0};
-    reference_start(&r);
-    for (int i = 0; i < count; ++i) {
-        reference_case in;
-        draw_roughness(&seed, &in);
-        draw_case(&seed, &in);
-        check(&r, &in, worst);
-    }
     reference_stop(&r);
-    for (int function = 0; function < FUNCTIONS; ++function)
-        print_message("# %s: %.3f ulp\n", function_names[function], worst[function]);
 }
 
-static void random_pairs(void **state) {
-    (void)state;
-    check_drawn(draw_random, 1, 1500);
-}
-static void lobe_centred_pairs(void **state) {
-    (void)state;
-    check_drawn(draw_centred, 2, 2000);
-}
-static void pairs_in_the_tail(void **state) {
-    (void)state;
-    check_drawn(draw_tail, 3, 2000);
-}
-static void mirror_exact_pairs(void **state) {
-    (void)state;
-    check_drawn(draw_mirror, 4, 1000);
-}
-static void grazing_pairs(void **state) {
-    (void)state;
-    check_drawn(draw_grazing, 5, 1500);
-    check_drawn(draw_grazing_lobe, 6, 2000);
-}
-static void pairs_with_vanishing_weight(void **state) {
-    (void)state;
-    check_drawn(draw_vanishing_pair, 7, 1500);
+/* Most results must be positive numbers in the normal range, or the test is about nothing. */
+static void every_kind_of_pairs(bool in_float) {
+    for (int kind = 0; kind < PAIR_KINDS; ++kind) {
+        static accuracy_tally t;
+        survey(&t, &pair_kinds[kind], in_float, (uint64_t)kind + (in_float ? 100 : 1));
+        fail_where_broken(&t, pair_kinds[kind].name, in_float ? "float" : "double",
+                          in_float ? accuracy_float_bound : accuracy_bound);
+        for (int row = 0; row < ROWS; ++row)
+            assert_true(t.results[row] > t.pairs / 10);
+    }
 }
 
-/* Pairs that were hardest, see there. */
-static void worst_cases(void **state) {
+static void pairs_in_double(void **state) {
     (void)state;
-    FILE *file = fopen("test/accuracy/worst.txt", "r");
+    every_kind_of_pairs(false);
+}
+
+static void pairs_in_float(void **state) {
+    (void)state;
+    every_kind_of_pairs(true);
+}
+
+static void replay(const char *path) {
+    FILE *file = fopen(path, "r");
     assert_non_null(file); /* tests run at the root of the tree */
-    reference_terms r;
-    double worst[FUNCTIONS] = {0};
+    static accuracy_tally in_double, in_float;
+    memset(&in_double, 0, sizeof in_double);
+    memset(&in_float, 0, sizeof in_float);
+    reference r;
     char line[512];
-    int count = 0;
     reference_start(&r);
     while (fgets(line, sizeof line, file)) {
-        reference_case in;
+        pair_group g;
         if (line[0] == '#')
             continue;
-        assert_int_equal(sscanf(line, "%la %la %la %la %la %la %la %la", &in.alpha_x, &in.alpha_y, &in.l[0], &in.l[1],
-                                &in.l[2], &in.v[0], &in.v[1], &in.v[2]),
-                         8);
-        check(&r, &in, worst);
-        ++count;
+        assert_true(accuracy_read_case(line, &g));
+        accuracy_check(&r, &g, 1, &in_double);
+        if (accuracy_is_float(&g))
+            accuracy_check_float(&r, &g, 1, &in_float);
     }
     reference_stop(&r);
     fclose(file);
-    assert_true(count >= 20);
-    for (int function = 0; function < FUNCTIONS; ++function)
-        print_message("# %s: %.3f ulp\n", function_names[function], worst[function]);
+    assert_true(in_double.pairs >= 20);
+    fail_where_broken(&in_double, path, "double", accuracy_bound);
+    fail_where_broken(&in_float, path, "float", accuracy_float_bound);
+}
+
+/* What `make accuracy` found last. */
+static void worst_pairs(void **state) {
+    (void)state;
+    replay("test/accuracy/worst.txt");
+}
+
+static void hard_pairs(void **state) {
+    (void)state;
+    replay("test/accuracy/hard.txt");
+}
+
+/* Why all the trouble; and that errors are noticed. */
+static void naive_formulas_lose_hundreds_of_ulps(void **state) {
+    (void)state;
+    static accuracy_tally t;
+    for (int kind = 0; kind < PAIR_KINDS; ++kind) {
+        if (strcmp(pair_kinds[kind].name, "tail") != 0)
+            continue;
+        survey(&t, &pair_kinds[kind], false, 3);
+        for (int row = 0; row < ROWS; ++row)
+            if (accuracy_rows[row].function == VALUE || accuracy_rows[row].function == WARD_DENSITY)
+                assert_true(t.naive[row].ulps > 300 && t.naive_large[row] > t.pairs / 50);
+    }
+    assert_true(t.pairs > 0);
+}
+
+/* The reference with five times the bits says the same to 2^-60. */
+static void reference_has_bits_enough(void **state) {
+    (void)state;
+    reference r;
+    mpfr_t difference;
+    uint64_t seed = 4;
+    reference_start(&r);
+    mpfr_init2(difference, REFERENCE_FINE_BITS);
+    for (int i = 0; i < PAIR_KINDS * 10; ++i) {
+        pair_group g;
+        pairs_draw(&seed, &pair_kinds[i % PAIR_KINDS], 1e-150, &g);
+        for (int k = 0; k < PAIRS; ++k) {
+            const reference_case in = accuracy_case(&g, k);
+            reference_evaluate_terms(&r.coarse, &in);
+            reference_evaluate_terms(&r.fine, &in);
+            assert_false(r.fine.doubtful);
+            for (int row = 0; row < ROWS && !r.coarse.doubtful; ++row) {
+                mpfr_ptr coarse = accuracy_exact(&r.coarse, &accuracy_rows[row]);
+                mpfr_ptr fine = accuracy_exact(&r.fine, &accuracy_rows[row]);
+                if (mpfr_cmp_ui_2exp(fine, 1, -2000) < 0)
+                    continue; /* nothing is left of such in a double */
+                mpfr_sub(difference, coarse, fine, MPFR_RNDN);
+                mpfr_abs(difference, difference, MPFR_RNDN);
+                mpfr_mul_2ui(difference, difference, 60, MPFR_RNDN);
+                assert_true(mpfr_less_p(difference, fine) != 0);
+            }
+        }
+    }
+    mpfr_clear(difference);
+    reference_stop(&r);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_pairs),      cmocka_unit_test(lobe_centred_pairs),
-        cmocka_unit_test(pairs_in_the_tail), cmocka_unit_test(mirror_exact_pairs),
-        cmocka_unit_test(grazing_pairs),     cmocka_unit_test(pairs_with_vanishing_weight),
-        cmocka_unit_test(worst_cases),
+        cmocka_unit_test(worst_pairs),
+        cmocka_unit_test(hard_pairs),
+        cmocka_unit_test(pairs_in_double),
+        cmocka_unit_test(pairs_in_float),
+        cmocka_unit_test(naive_formulas_lose_hundreds_of_ulps),
+        cmocka_unit_test(reference_has_bits_enough),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

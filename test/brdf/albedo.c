@@ -1,5 +1,5 @@
-/* Directional albedo: the paper's and exact values, other quadrature over directions, the samplers' mean weight,
- * bounds. */
+/* Directional albedo and acceptance: the paper's and exact values, other quadratures, the samplers' mean weight,
+ * limits, bounds. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -180,6 +180,150 @@ static void extreme_anisotropy(void **state) {
         }
 }
 
+/* The mean over slopes in polar coordinates, which nothing else here uses: p = r (ax cos phi, ay sin phi) has the
+ * density exp(-r^2) r/pi in (r, phi). With P = |p|/r and T = q/(r vz), l is above the surface for r < R = (T + sqrt(T^2
+ * + P^2))/P^2. Roots and kinks all lie at ends of intervals, where the double-exponential rule wants them. */
+enum { NODES_HALF = 105, NODES = 2 * NODES_HALF + 1 };
+
+/* The rule for [0,1]. Distances from either end are exact, however small. */
+typedef struct double_exponential {
+    double from_low[NODES], from_high[NODES], weight[NODES];
+} double_exponential;
+
+static double_exponential make_double_exponential(void) {
+    double_exponential rule;
+    const double step = 1. / 32;
+    for (int i = 0; i < NODES; ++i) {
+        double x = step * (i - NODES_HALF), y = pi * sinh(x);
+        rule.from_low[i] = 1 / (1 + exp(-y));
+        rule.from_high[i] = 1 / (1 + exp(y));
+        rule.weight[i] = step * pi * cosh(x) * rule.from_low[i] * rule.from_high[i];
+    }
+    return rule;
+}
+
+enum { ACCEPTANCE = -1 }; /* wanted instead of a model's albedo */
+
+/* Value x cosine / density (8), (15), or 1, for the slope r, from (1 + r^2 P^2) lz/vz. */
+static double integrand_at(int wanted, double vz, double r, double along, double square_slope, double scaled_cosine) {
+    double half = 1 + r * along, square = 1 + r * r * square_slope, ratio = scaled_cosine / square;
+    switch (wanted) {
+    case ACCEPTANCE:
+        return 1;
+    case GRAZE_BRDF_GMD:
+        return scaled_cosine / half;
+    case GRAZE_BRDF_WARD:
+        return vz * sqrt(ratio) * half / square / square;
+    case GRAZE_BRDF_WARD_DUER:
+        return half / square / square;
+    default:
+        return vz * fmin(ratio, 1) * half / square / square;
+    }
+}
+
+static double reference_ray(const double_exponential *rule, int wanted, double vz, double along, double square_slope) {
+    double root = hypot(along, sqrt(square_slope));
+    double horizon = along >= 0 ? (along + root) / square_slope : 1 / (root - along);
+    double end = fmin(horizon, 7),
+           mirror = fmin(fmax(along / square_slope, 0), end); /* kink of Ward-Neumann's maximum */
+    double ends[] = {0, wanted == GRAZE_BRDF_WARD_NEUMANN ? mirror : 0, end}, sum = 0;
+    for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < NODES && ends[k] < ends[k + 1]; ++i) {
+            double low = ends[k], high = ends[k + 1], length = high - low, r = low + length * rule->from_low[i];
+            double cosine = high < horizon ? 1 + 2 * r * along - r * r * square_slope
+                                           : length * rule->from_high[i] * (r * square_slope + 1 / horizon);
+            sum +=
+                rule->weight[i] * length * r * exp(-r * r) * integrand_at(wanted, vz, r, along, square_slope, cosine);
+        }
+    return sum;
+}
+
+/* Half a turn from T = 0 to T = 0 with both signs of T, in intervals between which the azimuth crosses an axis. */
+static double reference(int wanted, const graze_brdf *brdf, graze_vec3 v) {
+    const double_exponential rule = make_double_exponential();
+    double x = brdf->alpha_x * v.x, y = brdf->alpha_y * v.y;
+    double steepest = hypot(x, y) / v.z, start = atan2(y, x) - pi / 2;
+    double first_axis = ceil(start / (pi / 2)) * (pi / 2) - start;
+    double ends[] = {0, first_axis, first_axis + pi / 2, pi}, sum = 0;
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < NODES && ends[k] < ends[k + 1]; ++i) {
+            double length = ends[k + 1] - ends[k];
+            double turn = ends[k] + length * rule.from_low[i], left = (pi - ends[k + 1]) + length * rule.from_high[i];
+            double c = brdf->alpha_x * cos(start + turn), s = brdf->alpha_y * sin(start + turn);
+            double along = steepest * sin(fmin(turn, left)), square_slope = c * c + s * s;
+            sum += rule.weight[i] * length *
+                   (reference_ray(&rule, wanted, v.z, along, square_slope) +
+                    reference_ray(&rule, wanted, v.z, -along, square_slope));
+        }
+    return sum / pi;
+}
+
+/* Roughness, view: narrow and wide, alike and very different, steep, grazing, along and across the grain, and around
+ * all bounds between the ways to compute it. */
+static void other_coordinates(void **state) {
+    (void)state;
+    static const double alphas[][2] = {{.1, .1},  {.05, .2},   {.02, .3},   {.7, .5},     {3, .4},
+                                       {8, 10},   {1e-6, 10},  {9, 1e-4},   {1e-6, 1e-6}, {2e-5, 1e-6},
+                                       {.4, .02}, {.15, .149}, {1e-3, 1e-2}};
+    static const double cosines[] = {1, .9999, .97, .7, .2, .02, 1e-4, 1e-9, 1e-30};
+    static const double azimuths[] = {0, 89.9999, 33, 270};
+    enum { ALPHAS = sizeof alphas / sizeof *alphas, COSINES = sizeof cosines / sizeof *cosines };
+    for (int i = 0; i < ALPHAS * COSINES; ++i) {
+        int model = i % 5 - 1;
+        const graze_brdf brdf = {(graze_brdf_model)(model < 0 ? 0 : model), alphas[i % ALPHAS][0],
+                                 alphas[i % ALPHAS][1]};
+        for (int k = 0; k < (is_short_run() ? 2 : 4); ++k) {
+            double cosine = cosines[i / ALPHAS], exact, computed;
+            graze_vec3 v = direction(cosine, azimuths[k] * pi / 180);
+            exact = reference(model, &brdf, v);
+            computed = model < 0 ? graze_brdf_ward_acceptance(&brdf, v) : graze_brdf_albedo(&brdf, v);
+            if (!(fabs(computed - exact) <= 1e-10 * exact))
+                fail_msg("model %d, alpha %g %g, cosine %g, azimuth %g: %.17g is not %.17g", model, brdf.alpha_x,
+                         brdf.alpha_y, cosine, azimuths[k], computed, exact);
+        }
+    }
+}
+
+/* Light does not care which way round the grain is described. */
+static void symmetries(void **state) {
+    (void)state;
+    uint64_t seed = 4;
+    for (int i = 0; i < 100; ++i) {
+        const graze_brdf brdf = {(graze_brdf_model)(i % 4), draw_power(&seed, 1e-3, 5), draw_power(&seed, 1e-3, 5)};
+        const graze_brdf turned = {brdf.model, brdf.alpha_y, brdf.alpha_x};
+        graze_vec3 v = direction(draw(&seed), draw_between(&seed, 0, 7));
+        double albedo = graze_brdf_albedo(&brdf, v), accepted = graze_brdf_ward_acceptance(&brdf, v);
+        graze_vec3 same[] = {{-v.x, v.y, v.z}, {v.x, -v.y, v.z}, {-v.x, -v.y, v.z}};
+        for (int k = 0; k < 3; ++k) {
+            assert_near(graze_brdf_albedo(&brdf, same[k]), albedo, 1e-11);
+            assert_near(graze_brdf_ward_acceptance(&brdf, same[k]), accepted, 1e-11);
+        }
+        assert_near(graze_brdf_albedo(&turned, (graze_vec3){v.y, v.x, v.z}), albedo, 1e-11);
+    }
+}
+
+static void acceptance(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    for (int i = 0; i < 100; ++i) {
+        graze_brdf brdf = {GRAZE_BRDF_GMD, draw_power(&seed, 1e-6, 10), draw_power(&seed, 1e-6, 10)};
+        double azimuth = draw_between(&seed, 0, 7);
+        for (double cosine = .9; cosine > 1e-3; cosine /= 2) {
+            double share = graze_brdf_ward_acceptance(&brdf, direction(cosine, azimuth));
+            assert_true(share > 0 && share <= 1);
+        }
+        assert_near(graze_brdf_ward_acceptance(&brdf, direction(1e-150, azimuth)), .5, 1e-9); /* (32) */
+        brdf.model = (graze_brdf_model)(i % 4);
+        assert_true(graze_brdf_ward_acceptance(&brdf, direction(.5, azimuth)) ==
+                    graze_brdf_ward_acceptance(&(graze_brdf){GRAZE_BRDF_GMD, brdf.alpha_x, brdf.alpha_y},
+                                               direction(.5, azimuth)));
+    }
+    for (double alpha = 1e-6; alpha < 10; alpha *= 3) { /* at normal incidence, slopes up to 45 degrees */
+        const graze_brdf brdf = {GRAZE_BRDF_GMD, alpha, alpha};
+        assert_near(graze_brdf_ward_acceptance(&brdf, (graze_vec3){0, 0, 1}), -expm1(-1 / (alpha * alpha)), 1e-11);
+    }
+}
+
 static void bounded_everywhere(void **state) {
     (void)state;
     uint64_t seed = 3;
@@ -215,9 +359,19 @@ static void every_view_has_an_albedo(void **state) {
                 double albedo = graze_brdf_albedo(&brdf, direction(cosines[i], 1));
                 assert_true(albedo >= 0 && albedo <= (model == GRAZE_BRDF_GMD ? 1 : DBL_MAX));
             }
-    const graze_brdf brdf = {GRAZE_BRDF_GMD, .1, .1};
-    assert_true(graze_brdf_albedo(&brdf, (graze_vec3){1, 0, 0}) == 0);
-    assert_true(graze_brdf_albedo(&brdf, (graze_vec3){.6, 0, -.8}) == 0);
+    /* Nothing where v is not above the surface, or no direction; its length does not matter. */
+    const graze_vec3 none[] = {{1, 0, 0},        {.6, 0, -.8},     {0, 0, NAN},           {NAN, 0, .8},
+                               {0, 0, INFINITY}, {INFINITY, 0, 1}, {DBL_MAX, DBL_MAX, 1}, {3, 4, 5e-324}};
+    for (int model = 0; model < 4; ++model) {
+        const graze_brdf brdf = {(graze_brdf_model)model, .1, .1};
+        for (unsigned i = 0; i < sizeof none / sizeof *none; ++i) {
+            assert_true(graze_brdf_albedo(&brdf, none[i]) == 0);
+            assert_true(graze_brdf_ward_acceptance(&brdf, none[i]) == 0);
+        }
+        for (double size = 1e-300; size < 1e300; size *= 1e100)
+            assert_near(graze_brdf_albedo(&brdf, (graze_vec3){.6 * size, 0, .8 * size}),
+                        graze_brdf_albedo(&brdf, (graze_vec3){.6, 0, .8}), 1e-11);
+    }
 }
 
 int main(void) {
@@ -228,6 +382,9 @@ int main(void) {
         cmocka_unit_test(quadrature_over_directions),
         cmocka_unit_test(ward_duer_next_to_the_horizon),
         cmocka_unit_test(extreme_anisotropy),
+        cmocka_unit_test(other_coordinates),
+        cmocka_unit_test(symmetries),
+        cmocka_unit_test(acceptance),
         cmocka_unit_test(bounded_everywhere),
         cmocka_unit_test(albedos_at_grazing_angles),
         cmocka_unit_test(every_view_has_an_albedo),

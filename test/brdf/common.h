@@ -3,11 +3,19 @@
 #define TEST_BRDF_COMMON_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "graze/brdf.h"
 
 static const double pi = 3.14159265358979323846;
+
+/* Many runs of the tests, or slow ones: `make mutation`, `make coverage`, `make asan`. They take fewer random numbers.
+ */
+static inline bool is_short_run(void) {
+    return getenv("GRAZE_SHORT") != NULL || getenv("GRAZE_SANITIZED") != NULL;
+}
 
 /* splitmix64 */
 static inline double draw(uint64_t *seed) {

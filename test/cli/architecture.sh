@@ -87,7 +87,7 @@ brdf_is_pure_mathematics() {
         code "$file" | grep -nEw 'malloc|calloc|realloc|free|alloca|aligned_alloc|FILE|f?printf|fopen|fputs|puts|errno|_Thread_local' |
             sed "s|^|$file: line |"
         uncommented "$file" | grep -E '^[[:space:]]*#[[:space:]]*include[[:space:]]*<' |
-            grep -vE '<(math|float|limits|stdbool|stddef|stdint)\.h>' | sed "s|^|$file: |"
+            grep -vE '<(math|float|limits|stdbool|stddef|stdint|string)\.h>' | sed "s|^|$file: |"
     done
 }
 

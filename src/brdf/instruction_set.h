@@ -1,0 +1,28 @@
+/* What batch_baseline.c, batch_avx2.c and batch_avx512.c have in common: all functions, compiled for the instruction
+ * set that is in force where this is included, and the table of them. The macro BRDF_FMA says that fma() is one fast
+ * instruction there; double_double.h has what uses it. */
+#include "brdf/float_loops.h"
+#include "brdf/kernels.h"
+#include "brdf/pair_loops.h"
+#include "brdf/sample_loops.h"
+
+const brdf_kernels BRDF_TABLE = {
+    .name = BRDF_TABLE_NAME,
+    .value = value,
+    .ward_density = ward_density,
+    .ward_weight = ward_weight,
+    .pair_density = pair_density,
+    .pair_weight = pair_weight,
+    .value_batch = value_batch,
+    .ward_density_batch = ward_density_batch,
+    .ward_weight_batch = ward_weight_batch,
+    .pair_density_batch = pair_density_batch,
+    .pair_weight_batch = pair_weight_batch,
+    .value_float_batch = value_float_batch,
+    .sample_ward = brdf_sample_ward,
+    .sample_pair = brdf_sample_pair,
+    .sample_ward_batch = brdf_sample_ward_batch,
+    .sample_pair_batch = brdf_sample_pair_batch,
+    .sample_ward_float_batch = brdf_sample_ward_float_batch,
+    .sample_pair_float_batch = brdf_sample_pair_float_batch,
+};

@@ -1,0 +1,57 @@
+/* The table of functions that exists once for each instruction set, and the choice of one. */
+#ifndef BRDF_KERNELS_H
+#define BRDF_KERNELS_H
+
+#include <stddef.h>
+
+#include "graze/brdf.h"
+#include "graze/brdf_batch.h"
+
+/* Pairs of directions to one number each, in double and single precision. */
+typedef double brdf_scalar_function(const graze_brdf *, graze_vec3 l, graze_vec3 v);
+typedef void brdf_batch_function(const graze_brdf *, size_t, graze_vec3_arrays l, graze_vec3_arrays v, double *);
+typedef void brdf_float_batch_function(const graze_brdf *, size_t, graze_vec3_float_arrays l, graze_vec3_float_arrays v,
+                                       float *);
+
+/* Samplers: of Ward, and of pairs. */
+typedef graze_brdf_sample brdf_sample_ward_function(const graze_brdf *, graze_vec3 v, double s, double t);
+typedef graze_brdf_sample brdf_sample_pair_function(const graze_brdf *, graze_vec3 v, double s, double t, double u);
+typedef void brdf_sample_ward_batch_function(const graze_brdf *, size_t, graze_vec3_arrays v, const double *s,
+                                             const double *t, graze_brdf_sample_arrays);
+typedef void brdf_sample_pair_batch_function(const graze_brdf *, size_t, graze_vec3_arrays v, const double *s,
+                                             const double *t, const double *u, graze_brdf_sample_arrays);
+typedef void brdf_sample_ward_float_batch_function(const graze_brdf *, size_t, graze_vec3_float_arrays v,
+                                                   const float *s, const float *t, graze_brdf_sample_float_arrays);
+typedef void brdf_sample_pair_float_batch_function(const graze_brdf *, size_t, graze_vec3_float_arrays v,
+                                                   const float *s, const float *t, const float *u,
+                                                   graze_brdf_sample_float_arrays);
+
+/* Functions of brdf.h and brdf_batch.h, compiled for one instruction set. All tables give the same bits. */
+typedef struct brdf_kernels {
+    const char *name;
+    brdf_scalar_function *value, *ward_density, *ward_weight, *pair_density, *pair_weight;
+    brdf_batch_function *value_batch, *ward_density_batch, *ward_weight_batch, *pair_density_batch, *pair_weight_batch;
+    brdf_float_batch_function *value_float_batch;
+    brdf_sample_ward_function *sample_ward;
+    brdf_sample_pair_function *sample_pair;
+    brdf_sample_ward_batch_function *sample_ward_batch;
+    brdf_sample_pair_batch_function *sample_pair_batch;
+    brdf_sample_ward_float_batch_function *sample_ward_float_batch;
+    brdf_sample_pair_float_batch_function *sample_pair_float_batch;
+} brdf_kernels;
+
+extern const brdf_kernels brdf_kernels_baseline;
+#if defined(__x86_64__) && defined(__GNUC__)
+#define BRDF_X86_64
+extern const brdf_kernels brdf_kernels_avx2;   /* AVX2 and FMA */
+extern const brdf_kernels brdf_kernels_avx512; /* AVX-512 F, DQ, VL, and FMA */
+#endif
+
+/* All tables that this processor can run, the best one last; returns their number. */
+enum { BRDF_KERNELS_MOST = 3 };
+int brdf_kernels_available(const brdf_kernels *[BRDF_KERNELS_MOST]);
+
+/* The best one. */
+const brdf_kernels *brdf_kernels_best(void);
+
+#endif

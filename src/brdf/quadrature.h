@@ -1,0 +1,25 @@
+/* Adaptive quadrature of functions that are smooth between known points and no worse than a square root at those. */
+#ifndef BRDF_QUADRATURE_H
+#define BRDF_QUADRATURE_H
+
+/* A function, nowhere negative, of x and of what else it needs. */
+typedef double brdf_integrand(const void *context, double x);
+
+enum { BRDF_MOST_POINTS = 14 };
+
+/* Where an integrand is not smooth, in ascending order. */
+typedef struct brdf_points {
+    int count;
+    double at[BRDF_MOST_POINTS];
+} brdf_points;
+
+void brdf_points_add(brdf_points *, double x);
+
+/* How an integrand is at those points, and at the ends: like any function that is smooth up to there, or like one of a
+ * square root's kind. */
+typedef enum brdf_ends { BRDF_ENDS_SMOOTH, BRDF_ENDS_ROOTS } brdf_ends;
+
+/* The integral from `low` to `high`, good to a relative 1e-10 in all that this folder integrates. */
+double brdf_integrate(brdf_integrand *, const void *context, double low, double high, const brdf_points *, brdf_ends);
+
+#endif

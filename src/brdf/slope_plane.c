@@ -1,0 +1,88 @@
+/* Means over facet slopes: their coordinates, and the outer one of two integrals. */
+#include "brdf/slope_plane.h"
+
+#include <math.h>
+
+static const double pi = 0x1.921fb54442d18p+1;
+static const double farthest = BRDF_FARTHEST_SLOPE;
+static const double largest_lean = 1e15;
+
+void brdf_slope_plane_prepare(brdf_slope_plane *plane, const graze_brdf *brdf, graze_vec3 v) {
+    double ax = brdf->alpha_x, ay = brdf->alpha_y;
+    double x = ax * v.x, y = ay * v.y, length = hypot(x, y);
+    double cosine = length > 0 ? x / length : 1, sine = length > 0 ? y / length : 0;
+    double lean = fmin(length / v.z, 1e300);
+    plane->aa = ax * cosine * (ax * cosine) + ay * sine * (ay * sine);
+    plane->ab = (ay - ax) * (ay + ax) * cosine * sine;
+    plane->bb = ax * sine * (ax * sine) + ay * cosine * (ay * cosine);
+    plane->narrowing = ax * ay / plane->bb * (ax * ay);
+    plane->lean = fmin(lean, largest_lean);
+    plane->steepness = fmax(lean / largest_lean, 1);
+    plane->all_in_reach = lean + hypot(lean, fmax(ax, ay)) < 1 / farthest;
+}
+
+brdf_ellipse brdf_ellipse_above_surface(const brdf_slope_plane *plane) {
+    return (brdf_ellipse){1, 2 * plane->lean};
+}
+
+brdf_ellipse brdf_ellipse_above_mirror(const brdf_slope_plane *plane) {
+    return (brdf_ellipse){0, plane->lean};
+}
+
+brdf_chord brdf_ellipse_chord(const brdf_slope_plane *plane, brdf_ellipse ellipse, double a) {
+    double square = (ellipse.level + ellipse.slant * a - plane->narrowing * a * a) / plane->bb;
+    return (brdf_chord){-plane->ab / plane->bb * a, sqrt(fmax(square, 0))};
+}
+
+/* Where the ellipse's border crosses b = across. */
+static void add_crossings(brdf_points *points, const brdf_slope_plane *plane, brdf_ellipse ellipse, double across) {
+    double half = plane->ab * across - ellipse.slant / 2, rest = plane->bb * across * across - ellipse.level;
+    double square = half * half - plane->aa * rest;
+    if (!(square > 0))
+        return;
+    double sum = -(half + copysign(sqrt(square), half));
+    brdf_points_add(points, sum / plane->aa);
+    brdf_points_add(points, rest / sum);
+}
+
+/* The least and the largest a of the ellipse, which holds a = b = 0 or touches it, and where it gets out of reach. */
+static void add_border(brdf_points *points, const brdf_slope_plane *plane, brdf_ellipse ellipse) {
+    double half = ellipse.slant / 2, root = hypot(half, sqrt(plane->narrowing * ellipse.level));
+    brdf_points_add(points, -ellipse.level / (half + root));
+    brdf_points_add(points, (half + root) / plane->narrowing);
+    add_crossings(points, plane, ellipse, -farthest);
+    add_crossings(points, plane, ellipse, farthest);
+}
+
+typedef struct weighted {
+    brdf_integrand *across;
+    const void *context;
+} weighted;
+
+static double weigh(const void *context, double a) {
+    const weighted *w = context;
+    return exp(-a * a) * w->across(w->context, a);
+}
+
+/* The trapezoid rule, which does so well with a Gaussian times what is smooth everywhere. */
+static double sum_of_all(const weighted *w) {
+    const double step = .5;
+    double sum = 0;
+    for (int i = -10; i <= 10; ++i)
+        sum += weigh(w, step * i);
+    return step * sum;
+}
+
+double brdf_slope_mean(const brdf_slope_plane *plane, brdf_integrand *across, const void *context,
+                       const brdf_ellipse *kink) {
+    weighted w = {across, context};
+    if (plane->all_in_reach && !kink)
+        return sum_of_all(&w) / pi;
+    brdf_points points = {0, {0}};
+    add_border(&points, plane, brdf_ellipse_above_surface(plane));
+    double low = fmax(points.at[0], -farthest), high = fmin(points.at[points.count - 1], farthest);
+    brdf_points_add(&points, 0);
+    if (kink)
+        add_border(&points, plane, *kink);
+    return brdf_integrate(weigh, &w, low, high, &points, BRDF_ENDS_ROOTS) / pi;
+}
