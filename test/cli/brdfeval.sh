@@ -38,6 +38,7 @@ prints "-a is both roughnesses" "12.4339799" "$mirror" -a .1
 prints "... unless a later option says otherwise" "6.2169900" "$mirror" -a .1 -ay .2
 prints "roughness is 0.1 by default" "12.4339799" "$mirror"
 prints "-rs and -rd" "6.2488209" "$mirror" -rs .5 -rd .1
+prints "-rd alone" "12.4658109" "$mirror" -rd .1
 prints "all fields in the mirror direction" "12.4339799 9.9471839 9.9471839 1 9.9471839 1" "$mirror" -o fcpwPW
 prints "fields in any order, and again" "1 12.4339799 1" "$mirror" -o wfw
 prints "-o as one word" "1 12.4339799" "$mirror" -owf
@@ -69,6 +70,25 @@ prints "albedo" ".990000 .973957 .861043" "0 0\n60 10\n89 20\n" -q albedo --angl
 prints "albedo with both reflectances" ".595" "0 0 1\n" -q albedo -rs .5 -rd .1
 prints "albedo below the surface" "0" "0 0 -1\n" -q albedo -rd .5
 prints "no records, no answers" "" ""
+prints "fields of samples" ".8 - -.6" ".6 0 .8 0 .3\n" -q sample -o zpx
+prints "... of pairs" ".4375 .28 .4375" "0 0 1 .6321205588 0 0\n" -q pair -a .75 -oWzW
+prints "the share of samples accepted, before the albedo" "1 .990000 1" "0 0 1\n" -q albedo -o AaA -ax .1 -ay .1
+prints "... 1/2 at the horizon, whatever the model and the reflectances" ".5" "89.99999999 30\n" -q albedo -oA --angles -m ward -rs .3 -rd .2
+prints "... 0 below" "0 0" "0 .6 -.8\n" -q albedo -o aA
+
+# The mean albedo: the integral of the albedo over the cosine's square m^2, by Simpson's rule over x with m = (1 - x^2)^2, which
+# takes out the square root in Ward's model; in four azimuths of a quadrant.
+for setting in "-a .1" "-m ward -ax .3 -ay .2 -rs .5 -rd .1"; do
+    awk 'BEGIN { for (i = 0; i < 4; i++) for (j = 0; j < 400; j++) {
+        x = j / 400; m = (1 - x * x) ^ 2; phi = (2 * i + 1) * atan2(1, 1) / 4
+        printf "%.17g %.17g %.17g\n", sqrt(1 - m * m) * cos(phi), sqrt(1 - m * m) * sin(phi), m } }' |
+        "$brdfeval" -q albedo $setting | awk '{ j = (NR - 1) % 400; x = j / 400
+            sum += $1 * 8 * x * (1 - x * x) ^ 3 * (j % 2 ? 4 : 2) / 1200 / 4 } END { printf "%.9f", sum }' >integral
+    prints "mean albedo, $setting" "$(cat integral)" "" -q mean $setting
+done
+prints "the mean albedo again and again" "$("$brdfeval" -q mean -o mm)" "" -q mean -omm
+check "... in binary" test "$("$brdfeval" -q mean -fad | od -An -tfD | awk '{ printf "%.12g", $1 }')" = "$("$brdfeval" -q mean | awk '{ printf "%.12g", $1 }')"
+check "... leaves its input alone" test "$(printf '1\n2\n' | { "$brdfeval" -q mean >mean; cat; } | wc -l)" -eq 2
 
 # Records for all that follows.
 awk 'BEGIN { srand(7); for (i = 0; i < 2000; i++) printf "%.17g %.17g %.17g %.17g %.17g %.17g\n",
@@ -109,6 +129,60 @@ check "... printed in full" grep -qE '[0-9]{16}' six
 "$brdfeval" -faa -o fcpwPW <pairs >first
 check "answers are the same at a second time" cmp first ascii
 
+# Floats are answered in floats, close to what doubles say of the same floats.
+pack() { # the numbers of an ASCII file as floats, as they are nearest to them
+    "${PYTHON:-python3}" -c 'import array, sys; array.array("f", map(float, sys.stdin.read().split())).tofile(sys.stdout.buffer)'
+}
+# unit N: the first N vectors of each line are made unit vectors.
+unit() {
+    awk -v n="$1" '{ for (i = 1; i <= 3 * n; i += 3) { length_of = sqrt($i * $i + $(i + 1) * $(i + 1) + $(i + 2) * $(i + 2))
+        for (k = i; k < i + 3; k++) $k = sprintf("%.12g", $k / length_of) } print }'
+}
+unit 2 <pairs | pack >unit_floats
+pack <pairs >long_floats
+unit 1 <views | pack >view_floats
+unit 1 <views5 | pack >view_floats5
+unit 1 <views3 | pack >view_floats3
+# floats RELATIVE FIELDS FILE OPTIONS...: each field of -ff is this close to what -fd says, or below what a float can hold.
+floats() {
+    local relative=$1 fields=$2 file=$3
+    shift 3
+    "$brdfeval" -ff "$@" <"$file" | od -An -v -w$((4 * fields)) -tfF >single
+    "$brdfeval" -ffd "$@" <"$file" | od -An -v -w$((8 * fields)) -tfD | paste single - | awk -v n="$fields" -v relative="$relative" '
+        { for (i = 1; i <= n; i++) {
+            got = $i + 0; want = $(i + n) + 0; d = got - want; if (d < 0) d = -d; size = want < 0 ? -want : want
+            if (d > relative * size + 1e-37 && size < 3e38) { print NR, i, got, want; wrong = 1 } } }
+        END { exit wrong || NR == 0 }'
+}
+check "floats: all fields, unit vectors" floats 2e-6 6 unit_floats -ax .2 -ay .3 -o fcpwPW
+# Rounding when they are normalised moves directions by 6e-8, which the exponent, up to 87, magnifies.
+check "floats: vectors of other lengths" floats 2e-5 6 long_floats -ax .2 -ay .3 -o fcpwPW
+check "floats: both reflectances" floats 2e-6 2 unit_floats -a .4 -rs .5 -rd .25 -o fc
+check "floats: Ward's sampling" floats 1e-5 5 view_floats5 -q sample -a .3
+check "floats: paired sampling" floats 1e-5 5 view_floats -q pair -a .3
+check "floats: albedo" floats 1e-7 2 view_floats3 -q albedo -a .3 -o aA
+check "floats: one field is the same among others" sh -c "'$brdfeval' -ff -o fcw <long_floats | od -An -v -w12 -tx4 | awk '{ print \$3 }' >third
+    '$brdfeval' -ff -o w <long_floats | od -An -v -w4 -tx4 | awk '{ print \$1 }' | cmp - third"
+"${PYTHON:-python3}" -c 'import array, sys
+a = array.array("f", open("long_floats", "rb").read())
+for i in range(0, len(a), 6): a[i:i + 6] = a[i + 3:i + 6] + a[i:i + 3]
+a.tofile(sys.stdout.buffer)' >exchanged_floats
+"$brdfeval" -ff -ax .2 -ay .3 <long_floats >there
+check "floats: exchanged directions give the same bits" sh -c "'$brdfeval' -ff -ax .2 -ay .3 <exchanged_floats | cmp - there"
+for n in 2 3 4; do
+    check "floats: one thread and $n" sh -c "'$brdfeval' -n $n -ff -ax .2 -ay .3 <long_floats | cmp - there"
+done
+check "floats: with -x" sh -c "'$brdfeval' -n 2 -x 3 -ff -ax .2 -ay .3 <long_floats | cmp - there"
+# A record that has to be mended does not change its neighbours.
+{ head -c 2400 unit_floats; head -c 24 long_floats; tail -c +2401 unit_floats; } >mixed_floats
+check "floats: a long vector among unit vectors" sh -c "'$brdfeval' -ff <mixed_floats >mixed; '$brdfeval' -ff <unit_floats >unmixed
+    { head -c 400 mixed; tail -c +405 mixed; } | cmp - unmixed"
+echo 0 0 1 0 0 1 | pack | "$brdfeval" -ff >upright
+for length in 1.0000009 1.0000012; do echo 0 0 $length 0 0 1 | pack | "$brdfeval" -ff >"upright $length"; done
+check "floats: lengths off by rounding are left alone" sh -c "! cmp -s 'upright 1.0000009' upright"
+check "... others not" cmp "upright 1.0000012" upright
+check "floats: directions in degrees" floats 1e-7 1 unit_floats --angles -q albedo -rs 0 -rd .5
+
 # The same bytes, whatever the threads and the flush interval.
 for query in "eval -o fcpwPW:pairs" "sample:views5" "pair:views" "albedo:views3"; do
     for n in 1 2 5; do "$brdfeval" -q ${query%:*} -n $n -ax .2 -ay .4 <"${query#*:}" >n$n; done
@@ -129,6 +203,8 @@ check "header: the command line" grep -q 'brdfeval -h -ofc$' header
 "$brdfeval" -h -fad -q pair </dev/null >header
 check "header: doubles" grep -qx 'FORMAT=double' header
 check "header: five numbers" grep -qx 'NCOMP=5' header
+"$brdfeval" -h -fad -q albedo -oaAa </dev/null >header
+check "header: fields of albedo" grep -qx 'NCOMP=3' header
 "$brdfeval" -h+ -faf </dev/null >header
 check "header: floats" grep -qx 'FORMAT=float' header
 check "header: order of bytes" grep -qx 'BigEndian=0' header
@@ -162,16 +238,26 @@ fails "s of 1" 1 "record 2: s is 1" "0 0 1 .1 .2\n0 0 1 1 .2\n" "$brdfeval" -q s
 check "... with the answers before it" test "$(wc -l <out)" -eq 1
 fails "t below 0" 1 "record 1: t is -0.1" "0 0 1 .1 -.1\n" "$brdfeval" -q sample
 fails "u of 2" 1 "record 1: u is 2" "0 0 1 .1 .1 2\n" "$brdfeval" -q pair
+fails "floats: a light without direction" 1 "record 2: the direction to the light is zero" \
+    "$(printf '\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0200\\077%.0s' 1 2)$(printf '\\0%.0s' {1..24})" "$brdfeval" -ff
+check "... with the answers before it" test "$(wc -c <out)" -eq 4
+fails "floats: a record cut short" 1 "record 1" "abcdefgh" "$brdfeval" -ff
 { seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; echo 0 0 0 0 0 1; seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; } >late
 for n in 1 4; do
     "$brdfeval" -n $n <late >out 2>err
     check "a bad record far down, -n $n" test "$? $(wc -l <out) $(grep -c 'record 1001:' err)" = "1 1000 1"
 done
+fails "more numbers in a line are the next record's" 1 "record 3 is cut short" "0 0 1 0 0 1 .5\n0 0 1 0 0 1 .5\n" "$brdfeval"
+check "... in one stream" test "$(wc -l <out)" -eq 2
 
 # Bad options.
 fails "an unknown model" 1 "'phong'" "" "$brdfeval" -m phong
 fails "an unknown query" 1 "'what'" "" "$brdfeval" -q what
 fails "an unknown field" 1 "'x'" "" "$brdfeval" -o fx
+fails "a field of another query" 1 "-q albedo has no field 'f'; its fields: aA" "" "$brdfeval" -q albedo -o f
+fails "65 fields" 1 "-o: expected 1 to 64" "" "$brdfeval" -o "$(printf 'f%.0s' {1..65})"
+fails "the mean of a grid" 1 "--grid does not go with it" "" "$brdfeval" -q mean --grid tv=0
+fails "the mean in degrees" 1 "--angles does not go with it" "" "$brdfeval" -q mean --angles
 fails "no field" 1 "-o" "" "$brdfeval" -o ""
 fails "an unknown format" 1 "-fx" "" "$brdfeval" -fx
 fails "three formats" 1 "-fafd" "" "$brdfeval" -fafd
@@ -181,16 +267,25 @@ fails "too large a roughness" 1 "-ay" "" "$brdfeval" -ay 11
 fails "roughness in words" 1 "'rough'" "" "$brdfeval" -a rough
 fails "a roughness missing" 1 "-a" "" "$brdfeval" -a
 fails "a reflectance above 1" 1 "-rs" "" "$brdfeval" -rs 1.5
+fails "a reflectance below 0" 1 "-rd" "" "$brdfeval" -rd -.1
+fails "no reflectance" 1 "'nothing'" "" "$brdfeval" -rd
+fails "a longer name" 1 "-axe" "" "$brdfeval" -axe 1
 fails "an unknown option" 1 "-abc" "" "$brdfeval" -abc 1
 fails "no threads" 1 "-n" "" "$brdfeval" -n 0
 fails "an operand" 1 "'file'" "" "$brdfeval" file
 fails "a missing option file" 1 "nowhere" "" "$brdfeval" @nowhere
 
 # What every tool has.
-"$brdfeval" -m ward -a .3 -ay .2 -rs .6 -rd .1 -q pair -o fP --angles -fad -h -x 7 -n 3 -defaults >defaults
+"$brdfeval" -m ward -a .3 -ay .2 -rs .6 -rd .1 -q pair -o zP --angles -fad -h -x 7 -n 3 -defaults >defaults
 sed 's/#.*//' defaults >reread
 check "defaults can be read again" sh -c "'$brdfeval' @reread -defaults | cmp - defaults"
 check "... and are not the default's" sh -c "! '$brdfeval' -defaults | cmp -s - defaults"
+for given in "" "-q albedo" "-q sample -o zx" "-M file.rad name" "-q mean -M !cat\ a\ b it's" "--grid tl=0:1/3,tv=5 --npy"; do
+    printf '%s\n' "$given" | sed "s/'/\\\\'/g" >given
+    "$brdfeval" @given -defaults >defaults
+    sed 's/\t#.*//' defaults >reread
+    check "defaults of '$(echo "$given" | tr -d '#')' can be read again" sh -c "'$brdfeval' @reread -defaults | cmp - defaults"
+done
 check "--help names the options" sh -c "'$brdfeval' --help | grep -q -- --angles"
 check "--version" sh -c "'$brdfeval' --version | grep -q '^[^ ]* *[0-9Gr]'"
 export ROUGH="-a .2 -rs 1"

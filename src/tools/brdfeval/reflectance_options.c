@@ -1,0 +1,144 @@
+/* The options -m, -a, -ax, -ay, -rs, -rd and -M. */
+#include "tools/brdfeval/reflectance_options.h"
+
+#include <string.h>
+
+#include "tools/brdfeval/scene_material.h"
+
+static const char *const model_names[] = {
+    [GRAZE_BRDF_GMD] = "gmd",
+    [GRAZE_BRDF_WARD] = "ward",
+    [GRAZE_BRDF_WARD_DUER] = "ward-duer",
+    [GRAZE_BRDF_WARD_NEUMANN] = "ward-neumann",
+};
+
+static graze_status find_model(const char *name, graze_brdf_model *model, const graze_report *report) {
+    for (int i = GRAZE_BRDF_GMD; i <= GRAZE_BRDF_WARD_NEUMANN; i++)
+        if (strcmp(name, model_names[i]) == 0) {
+            *model = (graze_brdf_model)i;
+            return GRAZE_OK;
+        }
+    return report_error(report, NULL, "-m: there is no model '%s'; models: gmd ward ward-duer ward-neumann", name);
+}
+
+/* --- Numbers ----------------------------------------------------------------------------------------------------- */
+
+/* As read_parameter; `name` is the option's. */
+static graze_status read_number(reflectance_parameter *p, const char *name, const char *suffix, int count,
+                                const char *const *words, int *used, const graze_report *report) {
+    bool roughness = name[1] == 'a';
+    double low = roughness ? GRAZE_ROUGHNESS_MIN : 0, high = roughness ? GRAZE_ROUGHNESS_MAX : 1;
+    if (*suffix)
+        return report_error(report, NULL, "unknown option '%s%s' (brdfeval --help lists all)", name, suffix);
+    if (count < 1 || !text_to_real(words[0], &p->value) || !(p->value >= low && p->value <= high))
+        return report_error(report, NULL, "%s: expected a %s, got '%s'", name,
+                            roughness ? "roughness from 1e-6 to 10" : "reflectance from 0 to 1",
+                            count < 1 ? "nothing" : words[0]);
+    p->given = name;
+    *used = 1;
+    return GRAZE_OK;
+}
+
+static graze_status read_parameter(void *target, const char *suffix, int count, const char *const *words, int *used,
+                                   const graze_report *report) {
+    reflectance_parameter *p = target;
+    return read_number(p, p->name, suffix, count, words, used, report);
+}
+
+/* -a sets both roughnesses; -defaults shows them as -ax and -ay. */
+static graze_status read_both(void *target, const char *suffix, int count, const char *const *words, int *used,
+                              const graze_report *report) {
+    reflectance_options *o = target;
+    reflectance_parameter *x = &o->parameters[ALPHA_X], *y = &o->parameters[ALPHA_Y];
+    graze_status status = read_number(x, "-a", suffix, count, words, used, report);
+    y->value = x->value;
+    y->given = x->given;
+    return status;
+}
+
+/* Beside a material only what is in its way is printed, which is an error then as it is now. */
+static void print_parameter(void *target, FILE *out) {
+    const reflectance_parameter *p = target;
+    char text[NUMBER_TEXT_SIZE];
+    number_print_exact(text, p->value);
+    if (p->given || !p->options->material_file)
+        fprintf(out, "%s %s", p->name, text);
+}
+
+/* --- Materials --------------------------------------------------------------------------------------------------- */
+
+static graze_status read_material(void *target, const char *suffix, int count, const char *const *words, int *used,
+                                  const graze_report *report) {
+    reflectance_options *o = target;
+    if (*suffix)
+        return report_error(report, NULL, "unknown option '-M%s' (brdfeval --help lists all)", suffix);
+    if (count < 2)
+        return report_error(report, NULL, "-M: expected a scene file, and the name of a material in it");
+    o->material_file = words[0];
+    o->material_name = words[1];
+    *used = 2;
+    return GRAZE_OK;
+}
+
+void reflectance_print_words(FILE *out, int count, const char *const words[]) {
+    char text[8192];
+    for (int i = 0; i < count; i++) {
+        char *word = (char *)words[i];
+        options_command_line(text, sizeof text, 1, &word);
+        fprintf(out, "%s%s", i ? " " : "", text);
+    }
+}
+
+static void print_material(void *target, FILE *out) {
+    const reflectance_options *o = target;
+    if (o->material_file)
+        reflectance_print_words(out, 3, (const char *const[]){"-M", o->material_file, o->material_name});
+}
+
+/* --- All --------------------------------------------------------------------------------------------------------- */
+
+void reflectance_options_begin(reflectance_options *o, option table[REFLECTANCE_OPTION_COUNT]) {
+    *o = (reflectance_options){
+        .model = model_names[GRAZE_BRDF_GMD],
+        .parameters = {{"-ax", .1, NULL, o}, {"-ay", .1, NULL, o}, {"-rs", 1, NULL, o}, {"-rd", 0, NULL, o}}};
+    reflectance_parameter *p = o->parameters;
+    const option entries[REFLECTANCE_OPTION_COUNT] = {
+        {"", OPTION_HEADING, NULL, NULL, "Reflectance", 0, 0, NULL, NULL},
+        {"-m", OPTION_TEXT, &o->model, "MODEL", "gmd, ward, ward-duer or ward-neumann", 0, 0, NULL, NULL},
+        {"-a", OPTION_CUSTOM, o, "A", "roughness along x and y", 0, 0, read_both, NULL},
+        {"-ax", OPTION_CUSTOM, &p[ALPHA_X], "A", "roughness along x", 0, 0, read_parameter, print_parameter},
+        {"-ay", OPTION_CUSTOM, &p[ALPHA_Y], "A", "roughness along y", 0, 0, read_parameter, print_parameter},
+        {"-rs", OPTION_CUSTOM, &p[SPECULAR], "R", "specular reflectance", 0, 0, read_parameter, print_parameter},
+        {"-rd", OPTION_CUSTOM, &p[DIFFUSE], "R", "diffuse reflectance", 0, 0, read_parameter, print_parameter},
+        {"-M", OPTION_CUSTOM, o, "FILE NAME", "in place of these, a material of a scene file, in RGB", 0, 0,
+         read_material, print_material},
+    };
+    memcpy(table, entries, sizeof entries);
+}
+
+/* Neither takes precedence: who gives both would be surprised by either. */
+static graze_status check_material(const reflectance_options *o, bool input_taken, const graze_report *report) {
+    for (int i = 0; i < PARAMETER_COUNT; i++)
+        if (o->parameters[i].given)
+            return report_error(report, NULL, "-M takes all parameters from the material: %s does not go with it",
+                                o->parameters[i].given);
+    if (input_taken && strcmp(o->material_file, "-") == 0)
+        return report_error(report, NULL, "-M: the file cannot be '-': records come from standard input");
+    return GRAZE_OK;
+}
+
+graze_status reflectance_options_read(const reflectance_options *o, bool input_taken, reflectance *r,
+                                      const graze_report *report) {
+    const reflectance_parameter *p = o->parameters;
+    graze_status status = find_model(o->model, &r->lobe.model, report);
+    if (status == GRAZE_OK && o->material_file) {
+        status = check_material(o, input_taken, report);
+        return status == GRAZE_OK ? scene_material_read(r, o->material_file, o->material_name, report) : status;
+    }
+    r->lobe.alpha_x = p[ALPHA_X].value;
+    r->lobe.alpha_y = p[ALPHA_Y].value;
+    r->channels = 1;
+    r->specular[0] = p[SPECULAR].value;
+    r->diffuse[0] = p[DIFFUSE].value;
+    return status;
+}
