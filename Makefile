@@ -20,11 +20,12 @@ ALL_CFLAGS = -std=c11 -D_POSIX_C_SOURCE=200809L -DGRAZE_VERSION='"$(VERSION)"' -
              -fvisibility=hidden -fPIC -pthread $(WARN) -Iinclude -Isrc $(CFLAGS) $(EXTRA_CFLAGS)
 
 # Each folder of src/ is an archive; it may use the folders named here and what they use (the table in CONTRIBUTING.md).
-FOLDERS := base brdf rad image geometry material scene trace picture
+FOLDERS := base brdf rad image fit geometry material scene trace picture
 USES_base     :=
 USES_brdf     :=
 USES_rad      := base
 USES_image    := base
+USES_fit      := brdf base
 USES_geometry := rad base
 USES_material := brdf rad image base
 USES_scene    := material geometry brdf rad image base
@@ -33,6 +34,7 @@ USES_picture  := trace scene material geometry brdf rad image base
 
 LIBS_base     := -pthread
 LIBS_image    := -lOpenEXRCore -ldl
+LIBS_fit      := -lcminpack
 LIBS_geometry := -lembree3 -ldl
 
 archive = $(BUILD)/lib$(1).a
@@ -40,7 +42,8 @@ closure = $(1) $(USES_$(1))
 archives = $(foreach f,$(call closure,$(1)),$(call archive,$(f)))
 libs = -Wl,--as-needed $(foreach f,$(call closure,$(1)),$(LIBS_$(f))) -lm
 
-SOURCES   := $(foreach f,$(FOLDERS),$(wildcard src/$(f)/*.c))
+# What the libraries are made of; src/fit is brdffit's alone.
+SOURCES   := $(foreach f,$(filter-out fit,$(FOLDERS)),$(wildcard src/$(f)/*.c))
 TOOLS     := $(patsubst src/tools/%.c,$(BIN)/%,$(wildcard src/tools/*.c))
 TESTS     := $(foreach f,$(FOLDERS),$(patsubst test/%.c,$(BUILD)/test/%,$(wildcard test/$(f)/*.c)))
 STATIC    := $(LIB)/libgraze.a
@@ -87,18 +90,58 @@ $(foreach f,$(FOLDERS),$(eval $(call folder_rules,$(f))))
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+# The reflectance models are loops to make vector code of; that -ftrapping-math would forbid in part.
+$(BUILD)/obj/brdf/%.o: OPTIMIZE := -O3 -fno-trapping-math
 
 # What the tools share among them, beside the library.
 $(BUILD)/libtools.a: $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/tools/common/*.c))
 	@rm -f $@
 	@$(AR) rcs $@ $^
-$(BIN)/%: $(BUILD)/obj/tools/%.o $(BUILD)/libtools.a $(call archives,picture)
-	@mkdir -p $(@D)
-	$(call say,$@)$(CC) $(ALL_CFLAGS) -o $@ $< $(BUILD)/libtools.a $(call archives,picture) $(call libs,picture) $(LDFLAGS)
+# A tool is src/tools/NAME.c, and the files in src/tools/NAME if that is not all of it. It links src/picture and all that
+# uses, or what BASIS_NAME says.
+BASIS_brdffit := fit
+define tool_rule
+PARTS_$(notdir $(1)) := $$(patsubst src/%.c,$(BUILD)/obj/%.o,$$(wildcard src/tools/$(notdir $(1)).c src/tools/$(notdir $(1))/*.c))
+$(1): $$(PARTS_$(notdir $(1))) $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(notdir $(1))),picture))
+	@mkdir -p $$(@D)
+	$$(call say,$$@)$$(CC) $$(ALL_CFLAGS) -o $$@ $$(PARTS_$(notdir $(1))) $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(notdir $(1))),picture)) \
+	    $(call libs,$(or $(BASIS_$(notdir $(1))),picture)) $$(LDFLAGS)
+endef
+$(foreach tool,$(TOOLS),$(eval $(call tool_rule,$(tool))))
+# Loops over blocks of records: gcc's -O2 would not make vector instructions of them.
+$(BUILD)/obj/tools/brdfeval/block_%.o: OPTIMIZE := -O3
 
 # How well pictures agree: a small program for the demo and the tests.
 $(BUILD)/agreement: scripts/agreement.c $(call archives,image) $(BUILD)/flags
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -MMD -MP -o $@ $< $(call archives,image) $(call libs,image) $(LDFLAGS)
+
+# Fuzz targets, under a main that replays their corpus; `make fuzz` puts libFuzzer's in its place.
+FUZZ := $(patsubst test/%.c,$(BUILD)/test/%,$(filter-out %/replay.c,$(wildcard test/fuzz/*.c)))
+FUZZ_MAIN := $(BUILD)/test/fuzz/replay.o
+FUZZ_grid := $(BUILD)/obj/tools/brdfeval/grid.o $(BUILD)/obj/tools/brdfeval/evaluation.o
+FUZZ_FLAGS_records := -Wl,--wrap=read,--wrap=poll
+$(BUILD)/test/fuzz/replay.o: test/fuzz/replay.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,$<)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -c -o $@ $<
+define fuzz_rule
+PARTS_fuzz_$(1) := $(filter %.o,$(FUZZ_MAIN)) $(FUZZ_$(1)) $(call archives,base)
+$(BUILD)/test/fuzz/$(1): test/fuzz/$(1).c $$(PARTS_fuzz_$(1)) $(BUILD)/flags
+	@mkdir -p $$(@D)
+	$$(call say,$$@)$$(CC) $$(ALL_CFLAGS) -Itest -MMD -MP -o $$@ $$< $$(PARTS_fuzz_$(1)) $(filter -%,$(FUZZ_MAIN)) \
+	    $(FUZZ_FLAGS_$(1)) $(call libs,base) $$(LDFLAGS)
+endef
+$(foreach target,$(notdir $(FUZZ)),$(eval $(call fuzz_rule,$(target))))
+tests: $(FUZZ)
+
+# What the reflectance models cost; glibc has libmvec to compare with on this processor.
+$(BUILD)/test/bench/brdf: test/bench/brdf.c $(call archives,brdf) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,brdf) $(call libs,brdf) \
+	    $(if $(filter x86_64-%-gnu,$(shell $(CC) -dumpmachine)),-lmvec) $(LDFLAGS)
+
+# The long form of test/brdf/accuracy.c.
+$(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
+	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,brdf) $(call libs,brdf) -lmpfr -lgmp $(LDFLAGS)
 
 # The libraries show nothing but what the public headers mark GRAZE_API. In the static one that is done by linking objects into
 # one and making the hidden names local; three of them, so that a program that needs only the BRDF or the materials gets no more
@@ -138,32 +181,75 @@ $(LIB)/graze/oiio.so: src/image/oiio.cpp src/image/oiio.h $(BUILD)/flags
 JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j2)
 PEER := yes
 
-.PHONY: demo test bench asan
+.PHONY: demo figures test bench fuzz asan accuracy coverage mutation
 # demo: render the paper's grazing scene with each strategy; installs what is missing first
 demo:
 	@scripts/install-dependencies build
 	@$(MAKE) $(JOBS) --no-print-directory all $(BUILD)/agreement
 	@scripts/demo $(BIN) $(BUILD)/agreement out
 
+# figures: draw the paper's figures of the reflectance model into out/figures, and check the claims that go with them
+figures:
+	@scripts/install-dependencies build figures
+	@$(MAKE) $(JOBS) --no-print-directory $(BIN)/brdfeval
+	@figures/draw $(BIN)/brdfeval out/figures
+
 # test: build and run all tests; installs what is missing first. PEER=no leaves out the comparison with real Radiance
 test:
-	@scripts/install-dependencies build test
+	@scripts/install-dependencies build test figures
 	@$(if $(filter no,$(PEER)),,scripts/install-peer)
 	@$(MAKE) $(JOBS) --no-print-directory all tests
 	@BUILD=$(BUILD) BIN=$(BIN) MAKE=$(MAKE) test/run $(TEST_GROUPS)
 test: TEST_GROUPS = unit cli $(if $(filter no,$(PEER)),,peer)
 
-# bench: rays a second beside real Radiance's rtrace
+# bench: what the models cost beside libmvec, records beside cat and rcalc, rays beside rtrace; BENCH=brdf, records or rays
+BENCH := brdf records rays
 bench:
 	@scripts/install-dependencies build test
-	@scripts/install-peer
-	@$(MAKE) $(JOBS) --no-print-directory all
-	@BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) build/peer/bin/python test/bench/rays.py
+	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)
+	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf
+	@for part in $(BENCH); do \
+	    if [ $$part = brdf ]; then $(BUILD)/test/bench/brdf; \
+	    else BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) build/peer/bin/python test/bench/$$part.py; fi || exit; \
+	done
+
+# fuzz: looks for inputs that break the readers, FUZZ_SECONDS (60) each, built in build-fuzz, where finds are left
+FUZZ_SECONDS := 60
+FUZZER := -fsanitize=address,undefined -fno-sanitize-recover=all
+fuzz:
+	@scripts/install-dependencies build fuzz
+	@$(MAKE) $(JOBS) --no-print-directory BUILD=build-fuzz CC=clang EXTRA_CFLAGS='$(FUZZER) -fsanitize=fuzzer-no-link' \
+	    LDFLAGS='$(FUZZER)' FUZZ_MAIN=-fsanitize=fuzzer $(FUZZ:$(BUILD)/%=build-fuzz/%)
+	@for target in $(notdir $(FUZZ)); do \
+	    mkdir -p build-fuzz/corpus/$$target && build-fuzz/test/fuzz/$$target -max_total_time=$(FUZZ_SECONDS) -max_len=4096 \
+	        -print_final_stats=1 -artifact_prefix=build-fuzz/$$target- build-fuzz/corpus/$$target test/fuzz/corpus/$$target || exit; \
+	done
+
+# accuracy: the reflectance models against arbitrary precision at 10^7 hard pairs, in minutes; WORST=FILE keeps the worst
+accuracy:
+	@scripts/install-dependencies build test
+	@$(MAKE) $(JOBS) --no-print-directory $(BUILD)/accuracy
+	@$(BUILD)/accuracy 1e7 $(WORST)
+
+# coverage: which branches of src/brdf its tests take, which must be all
+COVERAGE = $(BUILD)/coverage
+coverage:
+	@scripts/install-dependencies build test
+	@rm -rf $(COVERAGE)
+	@$(MAKE) $(JOBS) --no-print-directory BUILD=$(COVERAGE) OPTIMIZE=-O0 EXTRA_CFLAGS=--coverage LDFLAGS=--coverage \
+	    $(TESTS_brdf:$(BUILD)/%=$(COVERAGE)/%)
+	@BUILD=$(COVERAGE) GRAZE_SHORT=1 test/run test/brdf/*.c
+	@scripts/coverage $(COVERAGE)/obj/brdf
+
+# mutation: changes every number and operator of src/brdf, one at a time: a test must notice; in a quarter of an hour
+mutation:
+	@scripts/install-dependencies build test
+	@CC='$(CC)' scripts/mutation $(MUTATE)
 
 # asan: unit and command-line tests under the address and undefined-behaviour sanitizers, built in build-asan
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all
 asan:
-	@scripts/install-dependencies build test
+	@scripts/install-dependencies build test figures
 	@$(MAKE) $(JOBS) --no-print-directory BUILD=build-asan BIN=build-asan/bin LIB=build-asan/lib \
 	    EXTRA_CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' programs tests
 	@BUILD=build-asan BIN=build-asan/bin GRAZE_SANITIZED=1 test/run unit cli
@@ -191,8 +277,10 @@ INSTALL ?= install
 dest    = $(DESTDIR)$(PREFIX)
 # What `uninstall` removes and `install` puts there, both relative to the prefix. The folders named graze are ours alone.
 MANUALS   := $(wildcard man/man?/*.[0-9])
+# A page of section 3 is found by the name of each of its functions.
+LINKS      = $(shell scripts/manual-links $(filter man/man3/%,$(MANUALS)) | cut -d ' ' -f 1)
 INSTALLED  = $(TOOLS:$(BIN)/%=bin/%) lib/libgraze.a lib/$(notdir $(SHARED)) lib/$(SONAME) lib/libgraze.so \
-             lib/pkgconfig/graze.pc $(MANUALS:%=share/%)
+             lib/pkgconfig/graze.pc $(MANUALS:%=share/%) $(LINKS:%=share/man/man3/%)
 
 .PHONY: install uninstall
 # install: into PREFIX (/usr/local), below DESTDIR
@@ -208,6 +296,8 @@ install: all
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(sort $(filter -l% -pthread,$(call libs,picture)))|' \
 	    scripts/graze.pc.in >$(dest)/lib/pkgconfig/graze.pc
 	for page in $(MANUALS); do $(INSTALL) -D -m 644 $$page $(dest)/share/$$page || exit 1; done
+	scripts/manual-links $(filter man/man3/%,$(MANUALS)) | while read -r link page; do \
+	    echo ".so man3/$$page" >$(dest)/share/man/man3/$$link && chmod 644 $(dest)/share/man/man3/$$link || exit 1; done
 	$(INSTALL) -m 644 LICENSE $(dest)/share/doc/graze
 
 # uninstall: remove what install put there
@@ -218,10 +308,10 @@ uninstall:
 .PHONY: clean help
 # clean: remove everything that was built or downloaded
 clean:
-	rm -rf $(BUILD) build-asan $(BIN) $(LIB) out
+	rm -rf $(BUILD) build-asan build-fuzz $(BIN) $(LIB) out
 
 # help: this list
 help:
 	@sed -n 's/^# \([a-zA-Z-]*\): /\1\t/p' Makefile | expand -t 14
 
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

@@ -24,15 +24,35 @@ only_graze() {
 }
 shared_symbols() { nm -D --defined-only "$library" | only_graze; }
 static_symbols() { nm -g --defined-only "$root/lib/libgraze.a" | awk 'NF == 3' | only_graze; }
-# Every function that a public header declares GRAZE_API is in both libraries.
+# The functions that the public headers declare GRAZE_API.
+api() {
+    cat include/graze/*.h | tr '\n' ' ' | sed -E 's/__attribute__\(\(([^()]|\([^()]*\))*\)\)//g' |
+        grep -oE 'GRAZE_API [^(;]*\(' | grep -oE '[a-z_0-9]+\($' | tr -d '(' | sort -u
+}
+# All of them are in both libraries.
 api_complete() {
     local name names
-    names=$(cat include/graze/*.h | tr '\n' ' ' | sed -E 's/__attribute__\(\(([^()]|\([^()]*\))*\)\)//g' | grep -oE 'GRAZE_API [^(;]*\(' | grep -oE '[a-z_0-9]+\($' | tr -d '(' | sort -u)
+    names=$(api)
     [ -n "$names" ] || return 1
     for name in $names; do
         nm -D --defined-only "$library" | grep -q " T $name\$" || { echo "not in libgraze.so: $name"; return 1; }
         nm -g --defined-only "$root/lib/libgraze.a" | grep -q " T $name\$" || { echo "not in libgraze.a: $name"; return 1; }
     done
+}
+# man(1) finds a page for each, and the page shows the function's declaration.
+manual_complete() {
+    local name page pages=$root/share/man/man3
+    for name in $(api); do
+        [ -s "$pages/$name.3" ] || { echo "no page: $name"; return 1; }
+        page=$(sed -n 's|^\.so man3/||p' "$pages/$name.3")
+        grep -q "^\.BI\? .*[ *]$name(" "$pages/${page:-$name.3}" || { echo "not in the synopsis: $name"; return 1; }
+    done
+}
+manual_links() {
+    local link
+    ! for link in $(grep -l '^\.so ' "$root"/share/man/man?/*); do
+        [ -f "$root/share/man/$(sed -n 's/^\.so //p' "$link")" ] || echo "$link"
+    done | grep .
 }
 compiled() { # EXAMPLE OUTPUT shared|static
     local flags libs
@@ -58,8 +78,11 @@ for tool in "$BIN"/*; do
     check "$(basename "$tool") has a manual page" has "share/man/man1/$(basename "$tool").1"
 done
 for page in "$root"/share/man/man?/*; do
+    if grep -q '^\.so ' "$page"; then continue; fi
     check "$(basename "$page") formats" bash -c 'w=$(groff -k -Tutf8 -ww -man -z "$0" 2>&1); echo "$w"; [ -z "$w" ]' "$page"
 done
+check "every function of the headers has its manual page" manual_complete
+check "manual pages by other names lead to pages that there are" manual_links
 check "SONAME is libgraze.so.0" soname
 check "the shared library shows only graze_*" shared_symbols
 check "the static library shows only graze_*" static_symbols
@@ -74,8 +97,31 @@ for example in examples/*.c; do
     done
 done
 check "an installed tool runs" runs "$root/bin/gtrace" --version
-materials_alone() { "${CC:-cc}" -I"$root/include" examples/link_material.c "$root/lib/libgraze.a" -lm -o "$work/alone" && "$work/alone"; }
-check "materials link with nothing but libm" materials_alone
+# What Graze needs no other library for needs nothing but libm when it is linked statically.
+alone() { # PROGRAM COMPILER... EXAMPLE
+    local program=$1
+    shift
+    "$@" -Wall -Wextra -Wpedantic -Werror "-I$root/include" -x none "$root/lib/libgraze.a" -lm -o "$program" && "$program" >"$program.out"
+}
+for example in link_material link_brdf; do
+    check "$example, static, with nothing but libm" alone "$work/alone" "${CC:-cc}" -std=c11 "examples/$example.c"
+done
+brdf_in_cpp() { # shared|static
+    local libs=("$root/lib/libgraze.a" -lm)
+    [ "$1" = static ] || read -r -a libs < <(pkg-config --libs graze)
+    # shellcheck disable=SC2046
+    "${CXX:-c++}" -std=c++17 -Wall -Wextra -Wpedantic -Werror $(pkg-config --cflags graze) -x c++ examples/link_brdf.c -x none \
+        "${libs[@]}" -o "$work/cpp" && runs "$work/cpp" >"$work/cpp.out" && cmp "$work/alone.out" "$work/cpp.out"
+}
+check "link_brdf in C++17, static" brdf_in_cpp static
+check "link_brdf in C++17, shared" brdf_in_cpp shared
+# Copied into another program's tree, the module gives the same, whatever the compiler makes of it.
+module_alone() { # OPTION...
+    "${CC:-cc}" -std=c11 "$@" -Iinclude -Isrc src/brdf/*.c examples/link_brdf.c -lm -o "$work/module" &&
+        "$work/module" >"$work/module.out" && cmp "$work/alone.out" "$work/module.out"
+}
+check "src/brdf builds alone" module_alone
+check "src/brdf builds alone, optimised for this processor" module_alone -O2 -march=native
 check "make uninstall" make_quietly uninstall
 check "nothing is left" test -z "$(installed_files)"
 plan

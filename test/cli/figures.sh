@@ -1,0 +1,59 @@
+#!/bin/bash
+# `make figures`: pictures in both formats, and claims that fail where they do not hold. TAP.
+source "$(dirname "$0")/../support/tap.sh"
+draw=$GRAZE_ROOT/figures/draw
+
+"$draw" "$BIN/brdfeval" "$work/out" >"$work/log" 2>"$work/err"
+result $? "figures are drawn, and all claims hold" "$work/log" "$work/err"
+check "... without a word of complaint" test ! -s "$work/err"
+check "... and each claim says what was found" test "$(grep -c '^ok  ' "$work/log")" -ge 60
+for name in figure3 figure4 figure5 figure6 figure7 weight; do
+    # A curve that was not drawn leaves far fewer bytes.
+    check "$name.png is a picture" sh -c "head -c 8 '$work/out/$name.png' | od -An -tx1 | grep -q '89 50 4e 47 0d 0a 1a 0a' &&
+        test \$(wc -c <'$work/out/$name.png') -gt 60000"
+    check "$name.svg is a whole document" sh -c "head -c 300 '$work/out/$name.svg' | grep -q '<svg' &&
+        tail -n 2 '$work/out/$name.svg' | grep -q '</svg>' && test \$(wc -c <'$work/out/$name.svg') -gt 30000"
+    check "... that tells no path" sh -c "! grep -qF '$work' '$work/out/$name.svg'"
+done
+
+# A brdfeval without answers, and a gnuplot that draws nothing.
+mkdir "$work/bin"
+ln -s /bin/true "$work/bin/gnuplot"
+PATH=$work/bin:$PATH "$draw" /bin/true "$work/nothing" >"$work/log" 2>&1
+check "the exit status tells of claims that fail" test $? -eq 1
+check "... which are all, where there are no numbers" grep -q '^101 claims, 101 failed' "$work/log"
+
+claims() { awk -f "$GRAZE_ROOT/figures/claims.awk" "$1"/*.csv >"$work/log"; }
+
+# Ward's model in place of the new one.
+cp -R "$work/out/data" "$work/ward"
+for table in "$work"/ward/*-ward.csv; do cp "$table" "${table%ward.csv}gmd.csv"; done
+claims "$work/ward"
+check "another model than the new one is noticed" test $? -eq 1
+check "... where it reflects too much" grep -q '^FAILED.* any angle' "$work/log"
+check "... where its peak is elsewhere" grep -q '^FAILED.*(23)' "$work/log"
+check "... not where it does not matter" grep -q '^ok.*(32)' "$work/log"
+
+# unsound DESCRIPTION CLAIM FILE AWK: with a table changed so, exactly the claims that CLAIM matches fail.
+unsound() {
+    rm -rf "$work/changed"
+    cp -R "$work/out/data" "$work/changed"
+    awk -F, -v OFS=, -v CONVFMT=%.17g "$4" "$work/out/data/$3" >"$work/changed/$3"
+    ! claims "$work/changed" &&
+        grep '^FAILED' "$work/log" >"$work/failed" && ! grep -vq -- "$2" "$work/failed"
+    result $? "$1" "$work/log"
+}
+unsound "an albedo off by a millionth" "new model at 60 deg" albedo-0.1-gmd.csv '$1 == 60 { $2 += 1e-6 } 1'
+unsound "an albedo above 1" "any angle" albedo-0.2-gmd.csv '$1 == 88 { $2 = 1 } NR > 1 && $1 == 50 { $2 = 1.000001 } 1'
+unsound "a Ward model that keeps to its bound" "Ward's model near" albedo-0.1-ward.csv 'NR > 1 && $2 > 1 { $2 = 1 } 1'
+unsound "samples that are all accepted" "accepted" albedo-0.2-gmd.csv 'NR > 1 { $3 = 1 } 1'
+unsound "a peak that is off by a tenth of a degree" "(23)" plane-0.25-gmd.csv \
+    '$1 == 50 && $3 > 50.05 && $3 < 50.15 { $5 *= 1.01 } 1'
+unsound "a mirror direction off by a billionth" "(12)" plane-0.1-ward-duer.csv \
+    '$1 == 25 && $3 > 24.95 && $3 < 25.05 { $5 *= 1 + 1e-9 } 1'
+unsound "models that differ" "apart" plane-0.1-ward-duer.csv '$1 == 0 && $3 == 3 { $5 *= 1.02 } 1'
+unsound "a weight that scatters" "paired sampling" weight-0.1-pair.csv '$1 == 60 { $3 *= 1.05 } 1'
+unsound "a weight that is biased" "paired sampling: mean" weight-0.1-pair.csv '$1 == 89 { $2 += .001 } 1'
+unsound "a weight above 1" "paired sampling" weight-0.1-pair.csv 'NR == 9 { $4 = 1.000001 } 1'
+unsound "a line that is missing" "at 35 deg" albedo-0.05-gmd.csv '$1 != 35'
+plan
