@@ -4,7 +4,8 @@
  * In double precision each element is, to the last bit, what the function of brdf.h for one pair gives: whatever the
  * length, the alignment and the processor. In float each element lies within the bounds below of the true value for the
  * floats given, again with the same bits everywhere; what is too large for a float is FLT_MAX. They hold for cosines
- * down to 1e-30 and are in units in the last place of a float, which below the normal floats is 2^-149:
+ * down to 1e-30 and are in units in the last place of a float, which below the normal floats is 2^-149; for speed,
+ * values (but not densities and weights) below the normal floats are 0 or within the bound:
  *
  *   function                                             bound   measured
  *   graze_brdf_value_float_batch                         2.9     2.5

@@ -9,8 +9,9 @@
  *
  * In units of 2^-24 of the value, and where they hurt most, which is for f = -1/2 and a value just below a power of
  * two: g is off by .71 for its rounding; p by .71 for its sum, .35 for each of the two roundings under that, .17 for
- * f's, .05 for the approximation, .1 for the rest; and half an ulp for the product makes 2.9 ulp. Below the normal
- * floats the error of g is 1.4 units of the last place there is, and the sum less than that. */
+ * f's, .05 for the approximation, .1 for the rest; and half an ulp for the product makes 2.9 ulp.
+ *
+ * Values below the normal floats become 0: tails are full of them, and one takes a processor as long as a hundred others. */
 #ifndef BRDF_FLOAT_LOOPS_H
 #define BRDF_FLOAT_LOOPS_H
 
@@ -54,6 +55,7 @@ BRDF_INLINE double float_factor(graze_brdf_model model, const float_lobe *k, dou
 BRDF_INLINE void float_parts(graze_brdf_model model, const float_lobe *k, size_t count, graze_vec3_float_arrays l,
                              graze_vec3_float_arrays v, float *restrict f, float *restrict g) {
     const double shift = 0x1.8p52 + 1022; /* puts the biased exponent of 2^(n - 1) into the low bits */
+    const double least = 0x1.6p-128;      /* g of the least normal value is 2^-127.5 or more */
     for (size_t i = 0; i < count; ++i) {
         double lz = l.z[i], vz = v.z[i];
         double hx = (double)l.x[i] + v.x[i], hy = (double)l.y[i] + v.y[i], hz = lz + vz;
@@ -64,7 +66,8 @@ BRDF_INLINE void float_parts(graze_brdf_model model, const float_lobe *k, size_t
         shifted = shifted > 0x1.8p52 ? shifted : 0x1.8p52; /* 2^-1023 becomes 0, and so does the value */
         f[i] = (float)(exponent - (shifted - shift));
         double factor = float_factor(model, k, (hx2 + hy2) + hz2, r, lz, vz);
-        g[i] = (float)(factor * brdf_from_bits(brdf_bits(shifted) << 52));
+        factor *= brdf_from_bits(brdf_bits(shifted) << 52);
+        g[i] = (float)(factor >= least ? factor : 0);
     }
 }
 
