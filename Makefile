@@ -220,10 +220,12 @@ fuzz:
 	@scripts/install-dependencies build fuzz
 	@$(MAKE) $(JOBS) --no-print-directory BUILD=build-fuzz CC=clang EXTRA_CFLAGS='$(FUZZER) -fsanitize=fuzzer-no-link' \
 	    LDFLAGS='$(FUZZER)' FUZZ_MAIN=-fsanitize=fuzzer $(FUZZ:$(BUILD)/%=build-fuzz/%)
-	@for target in $(notdir $(FUZZ)); do \
-	    mkdir -p build-fuzz/corpus/$$target && build-fuzz/test/fuzz/$$target -max_total_time=$(FUZZ_SECONDS) -max_len=4096 \
-	        -print_final_stats=1 -artifact_prefix=build-fuzz/$$target- build-fuzz/corpus/$$target test/fuzz/corpus/$$target || exit; \
-	done
+	@failed=; for target in $(notdir $(FUZZ)); do \
+	    log=build-fuzz/$$target.log; mkdir -p build-fuzz/corpus/$$target; \
+	    if build-fuzz/test/fuzz/$$target -max_total_time=$(FUZZ_SECONDS) -max_len=4096 -artifact_prefix=build-fuzz/$$target- \
+	        build-fuzz/corpus/$$target test/fuzz/corpus/$$target >$$log 2>&1; \
+	    then echo "$$target: $$(tail -n 1 $$log)"; else failed="$$failed $$target"; tail -n 40 $$log; fi; \
+	done; [ -z "$$failed" ] || { echo "found something:$$failed" >&2; exit 1; }
 
 # accuracy: the reflectance models against arbitrary precision at 10^7 hard pairs, in minutes; WORST=FILE keeps the worst
 accuracy:

@@ -16,7 +16,7 @@
  * record. What goes through it all should lie in a processor's nearer caches. */
 enum { FRONT = 64, ROOM = 1 << 17, READ_AT_LEAST = 1 << 16, BYTES_A_FIELD = 64 };
 
-/* A record is known to be whole when the blank behind its last word is there. At the end of the input one is put there.
+/* A record is known to be whole when the blank behind its last word is there. At the proper end of the input one is put there.
  */
 struct record_reader {
     int descriptor;
@@ -141,7 +141,7 @@ static void fill(record_reader *r, size_t most) {
     } else if (got == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) {
         r->ended = true;
         r->error = got == 0 ? 0 : errno;
-        if (!r->record_size)
+        if (!r->record_size && !r->error) /* a word that an error cuts off is not whole */
             r->memory[r->end++] = ' ';
     }
 }

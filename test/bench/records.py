@@ -7,6 +7,7 @@ how many turns.
 
 import glob
 import os
+import resource
 import statistics
 import subprocess
 import sys
@@ -64,10 +65,10 @@ class Contender:
 
     def __init__(self, name, command, file, records, pipe=False, beside=None, goal=None):
         self.name, self.command, self.file, self.records, self.pipe = name, command, file, records, pipe
-        self.beside, self.goal, self.rates = beside, goal, []
+        self.beside, self.goal, self.rates, self.costs = beside, goal, [], []
 
     def run(self):
-        start = time.perf_counter()
+        start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
         if self.pipe:
             cat = subprocess.Popen(["cat", self.file], stdout=subprocess.PIPE)
             subprocess.run(self.command, stdin=cat.stdout, stdout=subprocess.DEVNULL, check=True)
@@ -78,10 +79,13 @@ class Contender:
             with open(self.file, "rb") as file:
                 subprocess.run(self.command, stdin=file, stdout=subprocess.DEVNULL, check=True)
         self.rates.append(self.records / (time.perf_counter() - start))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.costs.append((after.ru_utime - before.ru_utime, after.ru_stime - before.ru_stime))
 
     def report(self):
         low, median, high = statistics.quantiles(self.rates, n=4)
-        text = f"  {self.name:36s} {median / 1e6:9.2f} ({low / 1e6:8.2f} {high / 1e6:8.2f})"
+        user, system = (1e9 * statistics.median(cost) / self.records for cost in zip(*self.costs))
+        text = f"  {self.name:30s} {median / 1e6:8.2f} ({low / 1e6:7.2f} {high / 1e6:7.2f})  {user:7.1f} {system:6.1f}"
         if self.beside:
             ratio = statistics.median(self.rates) / statistics.median(self.beside.rates)
             text += f"   {ratio:6.2f} x {self.beside.name}"
@@ -114,7 +118,8 @@ def main():
         for _ in range(RUNS):
             for contender in turns:
                 contender.run()
-        print(f"records: millions a second, medians of {RUNS} turns (quartiles); ratio: more is better")
+        print(f"records: millions a second, medians of {RUNS} turns (quartiles), and nanoseconds of processor time for one,\n"
+              "  the programs' and the system's, those of cat included; of ratios, more is better")
         for contender in turns:
             contender.report()
 

@@ -166,10 +166,14 @@ static graze_status read_values(reading *r, grid_axis *axis) {
     return read_character(r, ':') ? read_steps(r, axis) : complain_of_form(r);
 }
 
-static graze_status check_random_numbers(const reading *r, const grid_axis *axis) {
+static graze_status check_range(const reading *r, const grid_axis *axis) {
     double first = grid_axis_value(axis, 0), last = grid_axis_value(axis, axis->count - 1);
-    if (is_random_number(r, axis) && !(fmin(first, last) >= 0 && fmax(first, last) < 1))
-        return complain(r, "random numbers have to be at least 0 and less than 1");
+    if (is_random_number(r, axis)) {
+        if (!(fmin(first, last) >= 0 && fmax(first, last) < 1))
+            return complain(r, "random numbers have to be at least 0 and less than 1");
+    } else if (!(fabs(first) <= 360 && fabs(last) <= 360)) {
+        return complain(r, "angles have to be between -360 and 360 degrees");
+    }
     return GRAZE_OK;
 }
 
@@ -188,7 +192,7 @@ static graze_status read_assignment(reading *r) {
     if (status == GRAZE_OK)
         status = read_values(r, axis);
     if (status == GRAZE_OK)
-        status = check_random_numbers(r, axis);
+        status = check_range(r, axis);
     if (status == GRAZE_OK)
         status = count_points(r, axis);
     r->grid->axis_count++;
