@@ -8,6 +8,7 @@ file(k) = sprintf("%s/albedo-%s-%s.csv", data, roughness, word(models, k == 5 ? 
 field(k) = k == 5 ? "A" : "a"
 name(k) = k == 5 ? "samples accepted" : word(titles, k)
 line(k) = k
+caption = ""
 set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead linecolor rgb "#808080" back
 load here."/over_angle.gp"
 load here."/legend.gp"

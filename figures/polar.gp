@@ -6,6 +6,8 @@ heading = sprintf("Figure %d. BRDF in the plane of incidence, α = %s, ρ_s = 1"
 curves = 4
 name(k) = word(titles, k)
 line(k) = k
+caption = "Light from 0°: the curves nearly coincide. Viewers up to 89.9°; " \
+    ."curves are cut off beyond the outermost circle."
 set multiplot
 unset border
 unset grid
@@ -13,11 +15,11 @@ unset tics
 
 set angles degrees
 set margins 0, 0, 0, 0
-set size 0.46, 0.39
+set size 0.46, 0.37
 set size ratio -1
 do for [i = 1:4] {
     theta = real(word(incidences, i))
-    set origin 0.03 + 0.48 * ((i - 1) % 2), i <= 2 ? 0.52 : 0.09
+    set origin 0.03 + 0.48 * ((i - 1) % 2), i <= 2 ? 0.535 : 0.125
     # Circles at multiples of 1, 2 or 5 times a power of 10, the outermost just beyond the new model's peak.
     set autoscale
     stats table("gmd") using (column("theta_l") == theta ? column("f") : NaN) nooutput

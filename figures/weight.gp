@@ -8,5 +8,6 @@ file(k) = sprintf("%s/weight-%s-%s.csv", data, roughness, word("sample pair", k)
 field(k) = "deviation"
 name(k) = k == 1 ? "Ward’s sampling" : "paired sampling"
 line(k) = k == 1 ? 2 : 4
+caption = ""
 load here."/over_angle.gp"
 load here."/legend.gp"

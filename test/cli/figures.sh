@@ -6,7 +6,7 @@ draw=$GRAZE_ROOT/figures/draw
 "$draw" "$BIN/brdfeval" "$work/out" >"$work/log" 2>"$work/err"
 result $? "figures are drawn, and all claims hold" "$work/log" "$work/err"
 check "... without a word of complaint" test ! -s "$work/err"
-check "... and each claim says what was found" test "$(grep -c '^ok  ' "$work/log")" -ge 60
+check "... and each claim says what was found" test "$(grep -c '^ok  ' "$work/log")" -ge 90
 for name in figure3 figure4 figure5 figure6 figure7 weight; do
     # A curve that was not drawn leaves far fewer bytes.
     check "$name.png is a picture" sh -c "head -c 8 '$work/out/$name.png' | od -An -tx1 | grep -q '89 50 4e 47 0d 0a 1a 0a' &&
@@ -21,7 +21,7 @@ mkdir "$work/bin"
 ln -s /bin/true "$work/bin/gnuplot"
 PATH=$work/bin:$PATH "$draw" /bin/true "$work/nothing" >"$work/log" 2>&1
 check "the exit status tells of claims that fail" test $? -eq 1
-check "... which are all, where there are no numbers" grep -q '^101 claims, 101 failed' "$work/log"
+check "... which are all, where there are no numbers" grep -q '^130 claims, 130 failed' "$work/log"
 
 claims() { awk -f "$GRAZE_ROOT/figures/claims.awk" "$1"/*.csv >"$work/log"; }
 
@@ -46,7 +46,15 @@ unsound() {
 unsound "an albedo off by a millionth" "new model at 60 deg" albedo-0.1-gmd.csv '$1 == 60 { $2 += 1e-6 } 1'
 unsound "an albedo above 1" "any angle" albedo-0.2-gmd.csv '$1 == 88 { $2 = 1 } NR > 1 && $1 == 50 { $2 = 1.000001 } 1'
 unsound "a Ward model that keeps to its bound" "Ward's model near" albedo-0.1-ward.csv 'NR > 1 && $2 > 1 { $2 = 1 } 1'
-unsound "samples that are all accepted" "accepted" albedo-0.2-gmd.csv 'NR > 1 { $3 = 1 } 1'
+unsound "an anisotropic albedo above 1" "azimuth 45 deg.*any angle" anisotropic-0.05x0.2-gmd.csv \
+    '$1 == 60 && $2 == 45 { $3 = 1.000001 } 1'
+unsound "an anisotropic albedo off by a millionth" "0.2: albedo of the new model at 0 deg" anisotropic-0.05x0.2-gmd.csv \
+    '$1 == 0 && $2 == 0 { $3 += 1e-6 } 1'
+unsound "an anisotropic albedo that stays low" "azimuth 75 deg.*horizon, 89" anisotropic-0.05x0.2-gmd.csv \
+    '$2 == 75 && $1 > 89 { $3 = .9 } 1'
+unsound "samples that are accepted at one azimuth" "azimuth 90 deg.*(32)" anisotropic-0.05x0.2-gmd.csv '$2 == 90 { $4 = 1 } 1'
+unsound "an azimuth that is missing" "azimuth 30 deg" anisotropic-0.05x0.2-gmd.csv '$2 != 30'
+unsound "samples that are all accepted" "accepted samples" albedo-0.2-gmd.csv 'NR > 1 { $3 = 1 } 1'
 unsound "a peak that is off by a tenth of a degree" "(23)" plane-0.25-gmd.csv \
     '$1 == 50 && $3 > 50.05 && $3 < 50.15 { $5 *= 1.01 } 1'
 unsound "a mirror direction off by a billionth" "(12)" plane-0.1-ward-duer.csv \
@@ -55,5 +63,12 @@ unsound "models that differ" "apart" plane-0.1-ward-duer.csv '$1 == 0 && $3 == 3
 unsound "a weight that scatters" "paired sampling" weight-0.1-pair.csv '$1 == 60 { $3 *= 1.05 } 1'
 unsound "a weight that is biased" "paired sampling: mean" weight-0.1-pair.csv '$1 == 89 { $2 += .001 } 1'
 unsound "a weight above 1" "paired sampling" weight-0.1-pair.csv 'NR == 9 { $4 = 1.000001 } 1'
+unsound "a pair that is rejected" "paired.*rejected at any angle" weight-0.1-pair.csv '$1 == 20 { $5 = 1 / 4181 } 1'
+unsound "a pair that is rejected near the horizon" "paired.*rejected" weight-0.1-pair.csv '$1 == 89.9 { $5 = 1 / 4181 } 1'
+unsound "Ward's samples that are not rejected" "Ward's sampling: share.*at 89 deg" weight-0.1-sample.csv '$1 == 89 { $5 -= .001 } 1'
+unsound "a peak at the horizon where one is above it" "from 50.*above the horizon (22)" plane-0.25-gmd.csv \
+    '$1 == 50 && $3 > 89.85 { $5 = 3.6 } 1'
+unsound "a peak above the horizon where there is none" "at the horizon (22)" plane-0.25-gmd.csv \
+    '$1 == 75 && $3 > 87.95 && $3 < 88.05 { $5 = 59 } 1'
 unsound "a line that is missing" "at 35 deg" albedo-0.05-gmd.csv '$1 != 35'
 plan
