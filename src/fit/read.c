@@ -1,0 +1,171 @@
+/* A measurement file of any known format. */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/angle.h"
+#include "fit/reader.h"
+
+typedef struct file_bytes {
+    char *bytes;
+    size_t length, capacity;
+} file_bytes;
+
+static graze_status read_descriptor(file_bytes *f, int descriptor, const place *where, const graze_report *report) {
+    for (;;) {
+        if (f->length == f->capacity) {
+            size_t capacity = f->capacity ? 2 * f->capacity : 1 << 16;
+            char *bytes = f->capacity > SIZE_MAX / 2 ? NULL : realloc(f->bytes, capacity);
+            if (!bytes)
+                return report_out_of_memory(report);
+            f->bytes = bytes;
+            f->capacity = capacity;
+        }
+        ssize_t got = read(descriptor, f->bytes + f->length, f->capacity - f->length);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return report_file_error(report, where, "cannot read it");
+        if (got == 0)
+            return GRAZE_OK;
+        f->length += (size_t)got;
+    }
+}
+
+static graze_status read_bytes(file_bytes *f, const char *file, const place *where, const graze_report *report) {
+    bool standard = strcmp(file, "-") == 0;
+    int descriptor = standard ? STDIN_FILENO : open(file, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return report_file_error(report, where, "cannot open it");
+    graze_status status = read_descriptor(f, descriptor, where, report);
+    if (!standard)
+        close(descriptor);
+    return status;
+}
+
+/* A comment's first word behind its #. */
+static bool comment_begins(const fit_reader *r, const char *word) {
+    const char *at = r->line.text + 1, *end = r->line.text + r->line.length;
+    while (at < end && *at == ' ')
+        at++;
+    size_t length = strlen(word);
+    return (size_t)(end - at) >= length && memcmp(at, word, length) == 0;
+}
+
+static bool line_is_empty(fit_reader *r) {
+    fit_word word;
+    const char *at = r->at;
+    bool empty = !fit_reader_word(r, &word);
+    r->at = at;
+    return empty;
+}
+
+/* The first lines tell: comments of ALTA and pab have words of their own, and Cornell's begins with one number. */
+static fit_format recognise(fit_reader *r) {
+    static const char *const alta[] = {"DIM ", "PARAM_IN ", "PARAM_OUT ", "ALTA "};
+    static const char *const pab[] = {"intheta ", "incident_angle ", "format: theta phi"};
+    if (fit_is_merl(r->bytes, (size_t)(r->end - r->bytes)))
+        return FIT_FORMAT_MERL;
+    fit_reader_rewind(r);
+    while (fit_reader_line(r)) {
+        if (line_is_empty(r))
+            continue;
+        if (r->line.text[0] != '#') {
+            fit_word word;
+            double number;
+            bool one = fit_reader_count_words(r) == 1 && fit_reader_word(r, &word) && fit_word_number(&word, &number);
+            return one ? FIT_FORMAT_CORNELL : FIT_FORMAT_TABLE;
+        }
+        for (size_t i = 0; i < sizeof alta / sizeof *alta; i++)
+            if (comment_begins(r, alta[i]))
+                return FIT_FORMAT_ALTA;
+        for (size_t i = 0; i < sizeof pab / sizeof *pab; i++)
+            if (comment_begins(r, pab[i]))
+                return FIT_FORMAT_PAB;
+    }
+    return FIT_FORMAT_TABLE;
+}
+
+/* Angles in the wrong unit are all small, or too large. */
+static void question_unit(const fit_reader *r) {
+    const place where = {.file = r->where.file};
+    if (r->source->conventions.unit == FIT_DEGREES && r->largest_polar > 0 && r->largest_polar <= PI / 2 + 1e-3)
+        report_warning(r->report, &where,
+                       "no polar angle is above %.3g degrees: if they are radians, say --angles radians",
+                       r->largest_polar);
+    if (r->source->conventions.unit == FIT_RADIANS && r->largest_polar > PI + 1e-3)
+        report_warning(r->report, &where, "polar angles reach %.3g radians: if they are degrees, say --angles degrees",
+                       r->largest_polar);
+}
+
+static graze_status read_format(fit_reader *r) {
+    fit_format told = r->options->conventions.format;
+    r->source->origins.format = told == FIT_FORMAT_ANY ? FIT_OF_FILE : FIT_TOLD;
+    r->source->conventions.format = told == FIT_FORMAT_ANY ? recognise(r) : told;
+    fit_reader_rewind(r);
+    switch (r->source->conventions.format) {
+    case FIT_FORMAT_CORNELL:
+        return fit_read_cornell(r);
+    case FIT_FORMAT_ALTA:
+        return fit_read_alta(r);
+    case FIT_FORMAT_PAB:
+        return fit_read_pab(r);
+    case FIT_FORMAT_MERL:
+        return fit_read_merl(r);
+    default:
+        return fit_read_table(r);
+    }
+}
+
+static fit_source *new_source(fit_measurements *m, const char *name) {
+    fit_source *sources = realloc(m->sources, (m->source_count + 1) * sizeof *sources);
+    size_t size = strlen(name) + 1;
+    char *copy = malloc(size);
+    if (sources)
+        m->sources = sources;
+    if (!sources || !copy) {
+        free(copy);
+        return NULL;
+    }
+    memcpy(copy, name, size);
+    sources[m->source_count] = (fit_source){.file = copy};
+    return &sources[m->source_count++];
+}
+
+/* What some spreadsheets begin their tables with. */
+static size_t byte_order_mark(const file_bytes *f) {
+    return f->length >= 3 && memcmp(f->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+graze_status fit_read(fit_measurements *m, const char *file, const fit_read_options *options,
+                      const graze_report *report) {
+    const char *name = strcmp(file, "-") == 0 ? "standard input" : file;
+    const place where = {.file = name};
+    file_bytes bytes = {0};
+    fit_source *source = new_source(m, name);
+    if (!source)
+        return report_out_of_memory(report);
+    graze_status status = read_bytes(&bytes, file, &where, report);
+    if (status == GRAZE_OK) {
+        size_t mark = byte_order_mark(&bytes);
+        fit_reader r = {.bytes = bytes.bytes + mark,
+                        .end = bytes.bytes + bytes.length,
+                        .separator = ' ',
+                        .where = where,
+                        .options = options,
+                        .measurements = m,
+                        .source = source,
+                        .report = report};
+        status = read_format(&r);
+        if (status == GRAZE_OK)
+            question_unit(&r);
+        if (status == GRAZE_OK && source->pairs == 0)
+            status = report_error(report, &where, "there is no measurement of two directions above the surface");
+    }
+    free(bytes.bytes);
+    return status;
+}
