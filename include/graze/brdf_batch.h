@@ -1,25 +1,29 @@
-/* The reflectance models of brdf.h over arrays, as fast as the processor can: the widest vector instructions it has are
- * chosen at run time (x86-64: AVX-512, AVX2 with FMA, or neither; elsewhere whatever the compiler makes of plain C).
+/* The reflectance models of brdf.h over arrays, one lobe a call, as fast as the processor can: the widest vector
+ * instructions it has are chosen at run time (x86-64: AVX-512, AVX2 with FMA, or neither; elsewhere whatever the
+ * compiler makes of plain C).
  *
  * In double precision each element is, to the last bit, what the function of brdf.h for one pair gives: whatever the
  * length, the alignment and the processor. In float each element lies within the bounds below of the true value for the
  * floats given, again with the same bits everywhere; what is too large for a float is FLT_MAX. They hold for cosines
  * down to 1e-30 and are in units in the last place of a float, which below the normal floats is 2^-149; for speed,
- * values (but not densities and weights) below the normal floats are 0 or within the bound:
+ * values (but not densities and weights) below the normal floats may also be 0:
  *
  *   function                                             bound   measured
- *   graze_brdf_value_float_batch                         2.9     2.5
+ *   graze_brdf_value_float_batch                         2.95    2.5
+ *       of values below 2^-124                           3.31    2.5
  *   the densities                                        0.501   0.501
  *   the weights                                          0.501   0.501
  *
  * Arrays hold one component each. Output arrays must not overlap any other array. Directions, domains, meaning and
- * errors are those of brdf.h. No function here can fail, allocates, or keeps state. */
+ * errors are those of brdf.h; samples in float are those in double for the floats given, rounded. No function here can
+ * fail, allocates, or keeps state. */
 #ifndef GRAZE_BRDF_BATCH_H
 #define GRAZE_BRDF_BATCH_H
 
 #include <stddef.h>
 
 #include "graze/brdf.h"
+#include "graze/export.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -6,17 +6,11 @@
 extern "C" {
 #endif
 
-#if defined(__GNUC__)
-#define GRAZE_API __attribute__((visibility("default")))
-#else
-#define GRAZE_API
-#endif
-
 /* What a function returns that can fail. The values are the exit statuses of the command-line tools. */
 typedef enum graze_status {
     GRAZE_OK = 0,           /* everything asked for was done */
-    GRAZE_INPUT_ERROR = 1,  /* the caller's or user's mistake: a bad scene, option, record or argument */
-    GRAZE_SYSTEM_ERROR = 2, /* the system's: out of memory, a file that cannot be read or written */
+    GRAZE_INPUT_ERROR = 1,  /* the caller's or user's mistake: a bad scene, option, record, argument or file name */
+    GRAZE_SYSTEM_ERROR = 2, /* the system's: out of memory, a full disk, a failing read */
 } graze_status;
 
 typedef enum graze_severity {

@@ -5,6 +5,7 @@
 #include "graze/brdf.h"
 #include "graze/brdf_batch.h"
 #include "graze/error.h"
+#include "graze/export.h"
 #include "graze/material.h"
 #include "graze/scene.h"
 #include "graze/trace.h"

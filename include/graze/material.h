@@ -27,7 +27,7 @@
 #include <stddef.h>
 
 #include "graze/brdf.h"
-#include "graze/error.h"
+#include "graze/export.h"
 #include "graze/vector.h"
 
 #ifdef __cplusplus

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "graze/error.h"
+#include "graze/export.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "graze/error.h"
+#include "graze/export.h"
 #include "graze/scene.h"
 #include "graze/vector.h"
 

@@ -47,17 +47,28 @@ static double accepted_across(const void *context, double a) {
     return gaussian_of_chord(chord_above_surface(context, a));
 }
 
-/* False where v is not above the surface, or absurd. */
-static bool normalize(graze_vec3 *v) {
-    double length = hypot(hypot(v->x, v->y), v->z);
-    if (!(v->z > 0 && length <= DBL_MAX))
-        return false;
-    *v = (graze_vec3){v->x / length, v->y / length, v->z / length};
-    return v->z > 0;
+/* A smaller cosine is nothing beside any roughness: but for what Ward's and Ward-Duer's divide by it, 1/sqrt(vz) and
+ * 1/vz, all is the same there. */
+static const double least_cosine = 1e-30;
+
+/* Gives v the length 1, and at least that cosine. Returns the square root of how many times smaller its own is, 1 or
+ * more: the number itself may be too large. Returns 0 where v is not above the surface or not finite. */
+static double normalize(graze_vec3 *v) {
+    if (!(isfinite(v->x) && isfinite(v->y) && isfinite(v->z) && v->z > 0))
+        return 0;
+    int exponent;
+    frexp(fmax(fmax(fabs(v->x), fabs(v->y)), v->z), &exponent);
+    double x = ldexp(v->x, -exponent), y = ldexp(v->y, -exponent), z = ldexp(v->z, -exponent);
+    double length = hypot(hypot(x, y), z);
+    double half = ldexp(length / 2, exponent); /* of v's own length, which may be too large */
+    double root = sqrt(2 * least_cosine) * sqrt(half) / sqrt(v->z);
+    *v = (graze_vec3){x / length, y / length, fmax(z / length, least_cosine)};
+    return fmax(root, 1);
 }
 
 double graze_brdf_albedo(const graze_brdf *brdf, graze_vec3 v) {
-    if (!normalize(&v))
+    double root = normalize(&v);
+    if (root == 0)
         return 0;
     brdf_slope_plane plane;
     brdf_slope_plane_prepare(&plane, brdf, v);
@@ -65,11 +76,15 @@ double graze_brdf_albedo(const graze_brdf *brdf, graze_vec3 v) {
         return fmin(brdf_slope_mean(&plane, new_model_across, &plane, NULL), 1);
     double albedo = brdf_albedo_over_directions_suits(brdf, &plane) ? brdf_albedo_over_directions(brdf, v)
                                                                     : brdf_albedo_over_slopes(brdf->model, &plane, v.z);
+    if (brdf->model == GRAZE_BRDF_WARD)
+        albedo *= root;
+    if (brdf->model == GRAZE_BRDF_WARD_DUER)
+        albedo *= root * root;
     return fmin(albedo, DBL_MAX);
 }
 
 double graze_brdf_ward_acceptance(const graze_brdf *brdf, graze_vec3 v) {
-    if (!normalize(&v))
+    if (normalize(&v) == 0)
         return 0;
     brdf_slope_plane plane;
     brdf_slope_plane_prepare(&plane, brdf, v);

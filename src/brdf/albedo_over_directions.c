@@ -6,11 +6,9 @@
 #include <math.h>
 
 #include "brdf/albedo.h"
+#include "brdf/constants.h"
 
-static const double pi = 0x1.921fb54442d18p+1;
 static const double arc_step = .55; /* for the trapezoid rule: an error of exp(-(pi/.55)^2) */
-
-static const double farthest_exponent = BRDF_FARTHEST_SLOPE * BRDF_FARTHEST_SLOPE;
 
 typedef struct circles {
     graze_brdf_model model;
@@ -25,7 +23,7 @@ static double integrate_circle(const circles *c, double lz) {
     double centre = c->sine / hz, radius = sine / hz;
     double nearest = c->sine + sine > .5 ? (lz - c->vz) / (c->sine + sine) : centre - radius;
     double room = fmax((c->reach - nearest) * (c->reach + nearest), 0), extent = 4 * centre * radius;
-    double end = extent > room ? 2 * asin(sqrt(room / extent)) : pi;
+    double end = extent > room ? 2 * asin(sqrt(room / extent)) : brdf_pi;
     int count = 12 + (int)(end * radius / c->finest);
     double step = end / count, turn_x = cos(step / 2), turn_y = sin(step / 2);
     double x = 1, y = 0; /* cosine and sine of half the azimuth */
@@ -37,7 +35,7 @@ static double integrate_circle(const circles *c, double lz) {
         double along = nearest + 2 * radius * y * y, across = 2 * radius * x * y;
         double even = c->aa * along * along + c->bb * across * across, odd = 2 * c->ab * along * across;
         last = 0;
-        if (even - fabs(odd) > farthest_exponent)
+        if (even - fabs(odd) > brdf_farthest_slope * brdf_farthest_slope)
             continue;
         last = odd == 0 ? 2 * exp(-even) : exp(-(even + odd)) + exp(-(even - odd));
         sum += last;
@@ -53,9 +51,11 @@ static double weigh(const void *context, double lz) {
         return integral * sqrt(lz);
     case GRAZE_BRDF_WARD_DUER:
         return integral;
-    default:
-        return integral * fmin(lz / c->vz, 1);
+    case GRAZE_BRDF_GMD: /* is not asked for */
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
+    return integral * fmin(lz / c->vz, 1);
 }
 
 /* Not for lobes so narrow beside another roughness that circles take too many steps, nor so narrow next to normal
@@ -68,9 +68,9 @@ bool brdf_albedo_over_directions_suits(const graze_brdf *brdf, const brdf_slope_
 }
 
 double brdf_albedo_over_directions(const graze_brdf *brdf, graze_vec3 v) {
-    double ax = brdf->alpha_x, ay = brdf->alpha_y, vz = fmax(v.z, 1e-40); /* no lz that matters is that small */
+    double ax = brdf->alpha_x, ay = brdf->alpha_y, vz = v.z;
     double sine = hypot(v.x, v.y), x = sine > 0 ? v.x / sine : 1, y = sine > 0 ? v.y / sine : 0;
-    double reach = BRDF_FARTHEST_SLOPE * fmax(ax, ay), square = 1 + reach * reach;
+    double reach = brdf_farthest_slope * fmax(ax, ay), square = 1 + reach * reach;
     double ab = x * y * (1 / (ay * ay) - 1 / (ax * ax));
     circles c = {brdf->model, vz,
                  sine,        x / ax * (x / ax) + y / ay * (y / ay),
@@ -81,13 +81,15 @@ double brdf_albedo_over_directions(const graze_brdf *brdf, graze_vec3 v) {
     double high = reach * (1 + vz) < sine ? (vz * (1 - reach * reach) + 2 * reach * sine) / square : 1;
     brdf_points points = {1, {vz}};
     brdf_ends ends = brdf->model == GRAZE_BRDF_WARD ? BRDF_ENDS_ROOTS : BRDF_ENDS_SMOOTH;
-    double integral = brdf_integrate(weigh, &c, low, high, &points, ends) / (4 * pi) / ax / ay;
+    double integral = brdf_integrate(weigh, &c, low, high, &points, ends) / (4 * brdf_pi) / ax / ay;
     switch (brdf->model) {
     case GRAZE_BRDF_WARD:
-        return integral / sqrt(v.z);
+        return integral / sqrt(vz);
     case GRAZE_BRDF_WARD_DUER:
-        return integral / v.z;
-    default:
-        return integral;
+        return integral / vz;
+    case GRAZE_BRDF_GMD:
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
+    return integral;
 }

@@ -3,8 +3,7 @@
 #include <stddef.h>
 
 #include "brdf/albedo.h"
-
-static const double farthest = BRDF_FARTHEST_SLOPE;
+#include "brdf/constants.h"
 
 /* What is wanted, and a line of the slope plane at one a. */
 typedef struct slope_line {
@@ -33,9 +32,11 @@ static double weight_at(const slope_line *line, double b) {
         return weight * sqrt(ratio);
     case GRAZE_BRDF_WARD_DUER:
         return weight;
-    default:
-        return weight * fmin(ratio, 1);
+    case GRAZE_BRDF_GMD: /* is not asked for */
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
+    return weight * fmin(ratio, 1);
 }
 
 static double weigh(const void *context, double b) {
@@ -86,13 +87,13 @@ static bool poles_are_far(const brdf_slope_plane *plane, double a, double distan
 static double across(const void *context, double a) {
     slope_line line = line_at(context, a);
     const brdf_slope_plane *plane = line.plane;
-    double low = fmax(line.low, -farthest), high = fmin(line.high, farthest);
-    bool smooth = low == -farthest && high == farthest;
+    double low = fmax(line.low, -brdf_farthest_slope), high = fmin(line.high, brdf_farthest_slope);
+    bool smooth = low == -brdf_farthest_slope && high == brdf_farthest_slope;
     brdf_points points = {0, {0}};
     if (line.model == GRAZE_BRDF_WARD_NEUMANN) {
         brdf_chord kink = brdf_ellipse_chord(plane, brdf_ellipse_above_mirror(plane), a);
         double begin = kink.middle - kink.half, end = kink.middle + kink.half;
-        smooth = smooth && (kink.half == 0 || (fabs(begin) > farthest && fabs(end) > farthest));
+        smooth = smooth && (kink.half == 0 || (fabs(begin) > brdf_farthest_slope && fabs(end) > brdf_farthest_slope));
         brdf_points_add(&points, begin);
         brdf_points_add(&points, end);
     }
@@ -106,15 +107,15 @@ static double across(const void *context, double a) {
 
 double brdf_albedo_over_slopes(graze_brdf_model model, const brdf_slope_plane *plane, double vz) {
     slope_line any = {model, plane, 0, 0, 0, 0, 0, 0};
-    double s = plane->steepness;
     switch (model) {
     case GRAZE_BRDF_WARD:
-        return vz * s * sqrt(s) * brdf_slope_mean(plane, plane->all_in_reach ? coarse_across : across, &any, NULL);
+        return vz * brdf_slope_mean(plane, plane->all_in_reach ? coarse_across : across, &any, NULL);
     case GRAZE_BRDF_WARD_DUER:
-        return s * brdf_slope_mean(plane, plane->all_in_reach ? coarse_across : across, &any, NULL);
-    default: {
-        brdf_ellipse kink = brdf_ellipse_above_mirror(plane);
-        return vz * s * brdf_slope_mean(plane, across, &any, plane->lean > 0 ? &kink : NULL);
+        return brdf_slope_mean(plane, plane->all_in_reach ? coarse_across : across, &any, NULL);
+    case GRAZE_BRDF_GMD:
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
-    }
+    brdf_ellipse kink = brdf_ellipse_above_mirror(plane);
+    return vz * brdf_slope_mean(plane, across, &any, plane->lean > 0 ? &kink : NULL);
 }

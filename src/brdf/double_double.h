@@ -1,8 +1,8 @@
 /* Numbers of about 106 bits as unevaluated sums of two doubles, by error-free transformations (Dekker 1971, Knuth).
  *
- * Operations are exact or lose less than 2^-98 of the result, as long as no product over- or underflows. The same bits
- * with and without fused multiply-add: it is used for nothing but what is also exact, or rounded once, without it. All
- * else must not be contracted; arithmetic.h sees to that. */
+ * Operations are exact or lose less than 2^-98 of the result, sums and differences of the larger operand, as long as no
+ * product over- or underflows. The same bits with and without fused multiply-add: it is used for nothing but what is
+ * also exact, or rounded once, without it. All else must not be contracted; arithmetic.h sees to that. */
 #ifndef BRDF_DOUBLE_DOUBLE_H
 #define BRDF_DOUBLE_DOUBLE_H
 
@@ -35,15 +35,18 @@ BRDF_INLINE double_double exact_positive_sum(double a, double b) {
     return exact_ordered_sum(a > b ? a : b, a > b ? b : a);
 }
 
+/* The upper 26 bits of a (Veltkamp). */
+BRDF_INLINE double upper_bits(double a) {
+    double big = (0x1p27 + 1) * a;
+    return big - (big - a);
+}
+
 /* a b - p for p = a b rounded, which is exact. */
 BRDF_INLINE double product_error(double a, double b, double p) {
 #ifdef BRDF_FMA
     return fma(a, b, -p);
 #else
-    const double splitter = 0x1p27 + 1; /* the upper 26 bits (Veltkamp) */
-    double a_big = splitter * a, b_big = splitter * b;
-    double a_hi = a_big - (a_big - a), b_hi = b_big - (b_big - b);
-    double a_lo = a - a_hi, b_lo = b - b_hi;
+    double a_hi = upper_bits(a), a_lo = a - a_hi, b_hi = upper_bits(b), b_lo = b - b_hi;
     return ((a_hi * b_hi - p) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo;
 #endif
 }

@@ -8,10 +8,15 @@
  *     value = g p(f),   g = factor x 2^(n - 1),   p(f) = 2 x 2^f
  *
  * In units of 2^-24 of the value, and where they hurt most, which is for f = -1/2 and a value just below a power of
- * two: g is off by .71 for its rounding; p by .71 for its sum, .35 for each of the two roundings under that, .17 for
- * f's, .05 for the approximation, .1 for the rest; and half an ulp for the product makes 2.9 ulp.
+ * two: g is off by .708 for its rounding; p by .708 for its sum, .354 for each of the two roundings under that, .174
+ * for f's, .051 for the approximation, .101 for the rest; and half an ulp for the product makes 2.95 ulp.
  *
- * Values below the normal floats become 0: tails are full of them, and one takes a processor as long as a hundred others. */
+ * For values below 2^-124.5, g may be below the normal floats, where its rounding is off by more: by 2^-150, or, for
+ * f = 1/2 and a value just below 2^-125, by 1.415. The others are then .708, .177 twice, .174, .051, .1, and .5 for the
+ * product: 3.31 ulp.
+ *
+ * Values below the normal floats become 0 where g is below `least`: all below 2^-127.04, some up to 2^-126.04; the
+ * others are within the bound. Tails are full of them, and one takes a processor as long as a hundred others. */
 #ifndef BRDF_FLOAT_LOOPS_H
 #define BRDF_FLOAT_LOOPS_H
 
@@ -19,10 +24,11 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "brdf/blocks.h"
+#include "brdf/constants.h"
 #include "brdf/elementary.h"
+#include "brdf/models.h"
 #include "graze/brdf_batch.h"
-
-enum { FLOAT_VALUE_BLOCK = 256 };
 
 /* For r = s/hz^2, E = 2^((x hx^2 + y hy^2) r), and (17) is h.h r^2 E. */
 typedef struct float_lobe {
@@ -31,8 +37,8 @@ typedef struct float_lobe {
 } float_lobe;
 
 BRDF_INLINE float_lobe float_lobe_of(const graze_brdf *brdf) {
-    const double pi = 0x1.921fb54442d18p+1, log2_e = 0x1.71547652b82fep+0;
-    double ax = brdf->alpha_x, ay = brdf->alpha_y, pi_alphas = pi * (ax * ay), s = 1 / sqrt(pi_alphas);
+    const double log2_e = 0x1.71547652b82fep+0;
+    double ax = brdf->alpha_x, ay = brdf->alpha_y, pi_alphas = brdf_pi * (ax * ay), s = 1 / sqrt(pi_alphas);
     return (float_lobe){s, -log2_e / (ax * ax * s), -log2_e / (ay * ay * s), .25 / pi_alphas};
 }
 
@@ -46,16 +52,17 @@ BRDF_INLINE double float_factor(graze_brdf_model model, const float_lobe *k, dou
         return k->quarter / sqrt(lz * vz);
     case GRAZE_BRDF_WARD_DUER: /* (5) */
         return k->quarter / (lz * vz);
-    default:
-        return k->quarter / (lz > vz ? lz : vz);
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
+    return k->quarter / (lz > vz ? lz : vz);
 }
 
 /* f and g of all pairs. */
 BRDF_INLINE void float_parts(graze_brdf_model model, const float_lobe *k, size_t count, graze_vec3_float_arrays l,
                              graze_vec3_float_arrays v, float *restrict f, float *restrict g) {
     const double shift = 0x1.8p52 + 1022; /* puts the biased exponent of 2^(n - 1) into the low bits */
-    const double least = 0x1.6p-128;      /* g of the least normal value is 2^-127.5 or more */
+    const double least = 0x1.6p-128;      /* g of a normal value is 2^-127.5 or more, as p is 2^1.5 at most */
     for (size_t i = 0; i < count; ++i) {
         double lz = l.z[i], vz = v.z[i];
         double hx = (double)l.x[i] + v.x[i], hy = (double)l.y[i] + v.y[i], hz = lz + vz;
@@ -88,9 +95,9 @@ BRDF_INLINE void float_products(size_t count, const float *restrict lz, const fl
 BRDF_INLINE void float_values(graze_brdf_model model, const graze_brdf *brdf, size_t count, graze_vec3_float_arrays l,
                               graze_vec3_float_arrays v, float *result) {
     const float_lobe k = float_lobe_of(brdf);
-    float f[FLOAT_VALUE_BLOCK], g[FLOAT_VALUE_BLOCK];
-    for (size_t start = 0; start < count; start += FLOAT_VALUE_BLOCK) {
-        size_t length = count - start < FLOAT_VALUE_BLOCK ? count - start : FLOAT_VALUE_BLOCK;
+    float f[BRDF_BLOCK], g[BRDF_BLOCK];
+    for (size_t start = 0; start < count; start += BRDF_BLOCK) {
+        size_t length = block_length(start, count);
         graze_vec3_float_arrays block_l = {l.x + start, l.y + start, l.z + start};
         graze_vec3_float_arrays block_v = {v.x + start, v.y + start, v.z + start};
         float_parts(model, &k, length, block_l, block_v, f, g);
@@ -100,19 +107,7 @@ BRDF_INLINE void float_values(graze_brdf_model model, const graze_brdf *brdf, si
 
 static void value_float_batch(const graze_brdf *brdf, size_t count, graze_vec3_float_arrays l,
                               graze_vec3_float_arrays v, float *result) {
-    switch (brdf->model) {
-    case GRAZE_BRDF_GMD:
-        float_values(GRAZE_BRDF_GMD, brdf, count, l, v, result);
-        break;
-    case GRAZE_BRDF_WARD:
-        float_values(GRAZE_BRDF_WARD, brdf, count, l, v, result);
-        break;
-    case GRAZE_BRDF_WARD_DUER:
-        float_values(GRAZE_BRDF_WARD_DUER, brdf, count, l, v, result);
-        break;
-    default:
-        float_values(GRAZE_BRDF_WARD_NEUMANN, brdf, count, l, v, result);
-    }
+    BRDF_WITH_CONSTANT_MODEL(brdf->model, float_values(model, brdf, count, l, v, result); return );
 }
 
 #endif

@@ -1,6 +1,7 @@
-/* What batch_baseline.c, batch_avx2.c and batch_avx512.c have in common: all functions, compiled for the instruction
- * set that is in force where this is included, and the table of them. The macro BRDF_FMA says that fma() is one fast
- * instruction there; double_double.h has what uses it. */
+/* What kernels_baseline.c, kernels_avx2.c and kernels_avx512.c have in common: all functions, compiled for the
+ * instruction set that is in force where this is included, and the table of them. The macro BRDF_FMA says that fma() is
+ * one fast instruction there; double_double.h has what uses it. kernels.h has the map. */
+#include "brdf/float_conversion.h"
 #include "brdf/float_loops.h"
 #include "brdf/kernels.h"
 #include "brdf/pair_loops.h"
@@ -19,10 +20,10 @@ const brdf_kernels BRDF_TABLE = {
     .pair_density_batch = pair_density_batch,
     .pair_weight_batch = pair_weight_batch,
     .value_float_batch = value_float_batch,
-    .sample_ward = brdf_sample_ward,
-    .sample_pair = brdf_sample_pair,
-    .sample_ward_batch = brdf_sample_ward_batch,
-    .sample_pair_batch = brdf_sample_pair_batch,
-    .sample_ward_float_batch = brdf_sample_ward_float_batch,
-    .sample_pair_float_batch = brdf_sample_pair_float_batch,
+    .sample_ward = sample_ward,
+    .sample_pair = sample_pair,
+    .sample_ward_batch = sample_ward_batch,
+    .sample_pair_batch = sample_pair_batch,
+    .widen = widen,
+    .narrow = narrow,
 };

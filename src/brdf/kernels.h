@@ -1,9 +1,23 @@
-/* The table of functions that exists once for each instruction set, and the choice of one. */
+/* The table of functions that exists once for each instruction set, and the choice of one.
+ *
+ * How values, densities, weights and samples are computed, from the public function to the arithmetic:
+ *
+ *   entry_points.c, widened_floats.c      the functions of brdf.h and brdf_batch.h: roughness brought into its range,
+ * one call through the table. Float densities, weights and samples are those in double, a block at a time dispatch.c
+ * which table this processor can run kernels_{baseline,avx2,avx512}.c      a table each: instruction_set.h, compiled
+ * for that instruction set {pair,sample,float}_loops.h           one element or arrays of them, the model made a
+ * constant by models.h; and float_conversion.h                    floats to doubles and back {pair,sample}_kernels.h
+ * one element, without branches, from double_double.h and elementary.h out_of_range.c,                       pairs that
+ * the kernels leave alone, one at a time: powers of two are taken out_of_range_mean_weight.c            out, and the
+ * same arithmetic serves
+ *
+ * Integrals (albedo*.c, mean_albedo.c) and the diffuse term (diffuse.c) are plain C and libm. */
 #ifndef BRDF_KERNELS_H
 #define BRDF_KERNELS_H
 
 #include <stddef.h>
 
+#include "brdf/blocks.h"
 #include "graze/brdf.h"
 #include "graze/brdf_batch.h"
 
@@ -20,11 +34,10 @@ typedef void brdf_sample_ward_batch_function(const graze_brdf *, size_t, graze_v
                                              const double *t, graze_brdf_sample_arrays);
 typedef void brdf_sample_pair_batch_function(const graze_brdf *, size_t, graze_vec3_arrays v, const double *s,
                                              const double *t, const double *u, graze_brdf_sample_arrays);
-typedef void brdf_sample_ward_float_batch_function(const graze_brdf *, size_t, graze_vec3_float_arrays v,
-                                                   const float *s, const float *t, graze_brdf_sample_float_arrays);
-typedef void brdf_sample_pair_float_batch_function(const graze_brdf *, size_t, graze_vec3_float_arrays v,
-                                                   const float *s, const float *t, const float *u,
-                                                   graze_brdf_sample_float_arrays);
+
+/* Elements `start` to `start` + `length` of so many arrays into a block, and from one. */
+typedef void brdf_widen_function(brdf_block *to, const float *const *from, int arrays, size_t start, size_t length);
+typedef void brdf_narrow_function(float *const *to, const brdf_block *from, int arrays, size_t start, size_t length);
 
 /* Functions of brdf.h and brdf_batch.h, compiled for one instruction set. All tables give the same bits. */
 typedef struct brdf_kernels {
@@ -36,8 +49,8 @@ typedef struct brdf_kernels {
     brdf_sample_pair_function *sample_pair;
     brdf_sample_ward_batch_function *sample_ward_batch;
     brdf_sample_pair_batch_function *sample_pair_batch;
-    brdf_sample_ward_float_batch_function *sample_ward_float_batch;
-    brdf_sample_pair_float_batch_function *sample_pair_float_batch;
+    brdf_widen_function *widen;
+    brdf_narrow_function *narrow;
 } brdf_kernels;
 
 extern const brdf_kernels brdf_kernels_baseline;

@@ -11,11 +11,10 @@
  * of which the mean albedo is the mean over slopes, whose density is exp(-X^2 - Y^2)/pi for the slope (ax X, ay Y). */
 #include <math.h>
 
+#include "brdf/constants.h"
+#include "brdf/parameters.h"
 #include "brdf/quadrature.h"
 #include "graze/brdf.h"
-
-static const double pi = 0x1.921fb54442d18p+1;
-static const double farthest = 5.25; /* beyond it slopes are too rare to matter */
 
 typedef struct slope_mean {
     graze_brdf_model model;
@@ -32,14 +31,15 @@ static double mean_of_slope(graze_brdf_model model, double tan2) {
         return 2. / 3 / (square * square * sqrt(square));
     case GRAZE_BRDF_WARD_DUER:
         return 1 / (square * square);
-    default:
-        return 4 / (3 * pi) * atan(1 / tangent) / (square * square);
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
+    return 4 / (3 * brdf_pi) * atan(1 / tangent) / (square * square);
 }
 
 static double along_radius(const void *context, double r) {
     const slope_mean *m = context;
-    return pi / 2 * r * exp(-r * r) * mean_of_slope(m->model, m->wider * r * (m->wider * r));
+    return brdf_pi / 2 * r * exp(-r * r) * mean_of_slope(m->model, m->wider * r * (m->wider * r));
 }
 
 static double along_narrower(const void *context, double x) {
@@ -51,13 +51,14 @@ static double along_wider(const void *context, double y) {
     slope_mean m = *(const slope_mean *)context;
     m.tan2 = m.wider * y * (m.wider * y);
     const brdf_points none = {0, {0}};
-    return exp(-y * y) * brdf_integrate(along_narrower, &m, 0, farthest, &none, BRDF_ENDS_ROOTS);
+    return exp(-y * y) * brdf_integrate(along_narrower, &m, 0, brdf_farthest_slope, &none, BRDF_ENDS_ROOTS);
 }
 
 double graze_brdf_mean_albedo(const graze_brdf *brdf) {
-    double narrower = fmin(brdf->alpha_x, brdf->alpha_y), wider = fmax(brdf->alpha_x, brdf->alpha_y);
+    const graze_brdf in_range = brdf_in_range(brdf);
+    double narrower = fmin(in_range.alpha_x, in_range.alpha_y), wider = fmax(in_range.alpha_x, in_range.alpha_y);
     const slope_mean mean = {brdf->model, narrower, wider, 0};
     const brdf_points none = {0, {0}};
     brdf_integrand *integrand = narrower < wider ? along_wider : along_radius;
-    return fmin(4 / pi * brdf_integrate(integrand, &mean, 0, farthest, &none, BRDF_ENDS_ROOTS), 1);
+    return fmin(4 / brdf_pi * brdf_integrate(integrand, &mean, 0, brdf_farthest_slope, &none, BRDF_ENDS_ROOTS), 1);
 }

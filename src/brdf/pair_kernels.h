@@ -2,11 +2,12 @@
  * make vector code of them. The same functions serve one pair and arrays.
  *
  * The ordinary domain is where no product leaves double's range: hz^2 at least 2^-80, h.h at most 2^120, and, where
- * cosines are multiplied, those at least 2^-200. Elsewhere the kernels return outside_domain, and odd_pair.h takes
+ * cosines are multiplied, those at least 2^-200. Elsewhere the kernels return outside_domain, and out_of_range.h takes
  * over.
  *
  * Errors. The half vector, its squares, the exponent and the factor before E are sums of two doubles that are good to
- * 2^-90 of themselves. So what counts is where they are put together: for q = exp(r) - 1 with |r| <= .347,
+ * 2^-90 of themselves; but for the paired sampling's W, which is good to 2^-60. So what counts is where they are put
+ * together: for q = exp(r) - 1 with |r| <= .347,
  *
  *     result = hi + (hi q + (low + low q)),   low < 2^-28 hi
  *
@@ -18,6 +19,7 @@
 #ifndef BRDF_PAIR_KERNELS_H
 #define BRDF_PAIR_KERNELS_H
 
+#include "brdf/constants.h"
 #include "brdf/double_double.h"
 #include "brdf/elementary.h"
 #include "graze/brdf.h"
@@ -25,7 +27,9 @@
 /* No true result is negative. */
 static const double outside_domain = -1;
 
-/* What depends on the roughness alone. */
+/* What depends on the roughness alone. With s taken out of 1/(pi ax ay), the one quotient r = s/hz^2 is all that (17),
+ * h.h r^2 E, and the exponent, (hx^2/(s ax^2) + hy^2/(s ay^2)) r, need of hz; and since r^2 has both 1/(pi ax ay) and
+ * 1/hz^4, neither has to be multiplied in with an error of its own. */
 typedef struct lobe_constants {
     double s, inverse_s;              /* s is about 1/sqrt(pi ax ay); 1/s to an ulp or two */
     double excess;                    /* s^2 (1 + excess) = 1/(pi ax ay) */
@@ -74,7 +78,7 @@ BRDF_INLINE double_double loose_positive_sum(double_double a, double_double b) {
 }
 
 BRDF_INLINE lobe_constants lobe_constants_of(const graze_brdf *brdf) {
-    const double_double pi = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+    const double_double pi = {brdf_pi, brdf_pi_low};
     double ax = brdf->alpha_x, ay = brdf->alpha_y;
     double_double pi_alphas = loose_multiply(pi, exact_product(ax, ay)), reciprocal = dd_reciprocal(pi_alphas);
     lobe_constants k;
@@ -126,16 +130,22 @@ BRDF_INLINE double_double cosine_factor(graze_brdf_model model, double lz, doubl
         return dd_sqrt(exact_product(lz, vz));
     case GRAZE_BRDF_WARD_DUER:
         return exact_product(lz, vz);
-    default:
-        return (double_double){lz > vz ? lz : vz, 0};
+    case GRAZE_BRDF_GMD: /* has none */
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
+    return (double_double){lz > vz ? lz : vz, 0};
 }
 
 /* The paired sampling's W. Of the two candidates that l and its slope's negative give, l's share is w/2 = lz/hz, its
  * partner's (vz u - 2q)/(2 (vz - q)) where that is positive: never for tau >= 1. Here v.h = h.h/2, which unit vectors
  * obey, gives 2q = lz - vz + tau^2 hz: v's rounded x and y would tell nothing about q at grazing angles.
  *
- * vz u - 2q is good to 2^-96 hz. That is enough if it or lz is 2^-40 hz; else W is not `certain`. */
+ * Where vz u - 2q is not below 0, tau is at most 1 and vz at least hz/3. By the bounds of each operation, and in units
+ * of 2^-106, tau^2 is then good to 69 of itself, vz u to 74 hz, 2q to 83 hz, and with 8 hz for their difference vz u -
+ * 2q is good to 165 hz, which is less than 2^-98 hz. The divisor is that plus vz (1 + tau^2), and vz is about hz where
+ * lz is small. So if vz u - 2q or lz is 2^-38 hz or more, W is good to 2^-60 of itself, which is 1/128 ulp. Else it is
+ * not `certain`. */
 typedef struct mean_weight {
     double_double mean;
     int certain;
@@ -148,7 +158,7 @@ BRDF_INLINE mean_weight mean_weight_of_pair(const half_vector *h, double lz, dou
     double_double partner = dd_subtract(dd_multiply_double(u, vz), twice_q);
     double_double divisor = dd_subtract((double_double){2 * vz, 0}, twice_q);
     double_double both = dd_add(own_share, dd_divide(partner, divisor));
-    double enough = 0x1p-40 * h->z.hi;
+    double enough = 0x1p-38 * h->z.hi;
     return (mean_weight){{partner.hi > 0 ? both.hi : own_share.hi, partner.hi > 0 ? both.lo : own_share.lo},
                          (fabs(partner.hi) >= enough) | (lz >= enough)};
 }
@@ -157,12 +167,11 @@ BRDF_INLINE mean_weight mean_weight_of_pair(const half_vector *h, double lz, dou
 BRDF_INLINE powered_number times_gaussian(double_double factor, double correction, const lobe_terms *t, double limit) {
     /* The power of two of the result and the bias of an exponent and 700 are the low bits of shifted_power. */
     const double shift = 0x1.8p52 + 1023 + 700;
-    const double ln2_hi = 0x1.62e42fefa2p-1, ln2_lo = 0x1.9ef35793c7673p-41; /* 40 bits: n x ln2_hi is exact */
     double exponent = t->exponent < limit ? t->exponent : limit;
     double shifted_power = shift - exponent * 0x1.71547652b82fep+0;
     double n = shift - shifted_power;
-    double r = n * ln2_hi - exponent; /* exact */
-    double low = factor.lo + factor.hi * (correction + (n * ln2_lo - t->exponent_low));
+    double r = n * brdf_ln2_hi - exponent; /* exact */
+    double low = factor.lo + factor.hi * (correction + (n * brdf_ln2_lo - t->exponent_low));
 
     /* exp(r) = 1 + r + r^2 P(r); P's coefficients, found with Remez' algorithm and rounded, leave a relative error of
      * 2^-56.3. */

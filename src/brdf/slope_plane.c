@@ -3,22 +3,18 @@
 
 #include <math.h>
 
-static const double pi = 0x1.921fb54442d18p+1;
-static const double farthest = BRDF_FARTHEST_SLOPE;
-static const double largest_lean = 1e15;
+#include "brdf/constants.h"
 
 void brdf_slope_plane_prepare(brdf_slope_plane *plane, const graze_brdf *brdf, graze_vec3 v) {
     double ax = brdf->alpha_x, ay = brdf->alpha_y;
     double x = ax * v.x, y = ay * v.y, length = hypot(x, y);
     double cosine = length > 0 ? x / length : 1, sine = length > 0 ? y / length : 0;
-    double lean = fmin(length / v.z, 1e300);
     plane->aa = ax * cosine * (ax * cosine) + ay * sine * (ay * sine);
     plane->ab = (ay - ax) * (ay + ax) * cosine * sine;
     plane->bb = ax * sine * (ax * sine) + ay * cosine * (ay * cosine);
     plane->narrowing = ax * ay / plane->bb * (ax * ay);
-    plane->lean = fmin(lean, largest_lean);
-    plane->steepness = fmax(lean / largest_lean, 1);
-    plane->all_in_reach = lean + hypot(lean, fmax(ax, ay)) < 1 / farthest;
+    plane->lean = length / v.z;
+    plane->all_in_reach = plane->lean + hypot(plane->lean, fmax(ax, ay)) < 1 / brdf_farthest_slope;
 }
 
 brdf_ellipse brdf_ellipse_above_surface(const brdf_slope_plane *plane) {
@@ -50,8 +46,8 @@ static void add_border(brdf_points *points, const brdf_slope_plane *plane, brdf_
     double half = ellipse.slant / 2, root = hypot(half, sqrt(plane->narrowing * ellipse.level));
     brdf_points_add(points, -ellipse.level / (half + root));
     brdf_points_add(points, (half + root) / plane->narrowing);
-    add_crossings(points, plane, ellipse, -farthest);
-    add_crossings(points, plane, ellipse, farthest);
+    add_crossings(points, plane, ellipse, -brdf_farthest_slope);
+    add_crossings(points, plane, ellipse, brdf_farthest_slope);
 }
 
 typedef struct weighted {
@@ -77,12 +73,13 @@ double brdf_slope_mean(const brdf_slope_plane *plane, brdf_integrand *across, co
                        const brdf_ellipse *kink) {
     weighted w = {across, context};
     if (plane->all_in_reach && !kink)
-        return sum_of_all(&w) / pi;
+        return sum_of_all(&w) / brdf_pi;
     brdf_points points = {0, {0}};
     add_border(&points, plane, brdf_ellipse_above_surface(plane));
-    double low = fmax(points.at[0], -farthest), high = fmin(points.at[points.count - 1], farthest);
+    double low = fmax(points.at[0], -brdf_farthest_slope),
+           high = fmin(points.at[points.count - 1], brdf_farthest_slope);
     brdf_points_add(&points, 0);
     if (kink)
         add_border(&points, plane, *kink);
-    return brdf_integrate(weigh, &w, low, high, &points, BRDF_ENDS_ROOTS) / pi;
+    return brdf_integrate(weigh, &w, low, high, &points, BRDF_ENDS_ROOTS) / brdf_pi;
 }

@@ -14,19 +14,14 @@
 #include "brdf/quadrature.h"
 #include "graze/brdf.h"
 
-/* What lies farther out is nothing: exp(-5.25^2) is 1e-12. */
-#define BRDF_FARTHEST_SLOPE 5.25
-
 typedef struct brdf_slope_plane {
     double lean;
     double aa, ab, bb;
     double narrowing;  /* aa - ab^2/bb = (ax ay)^2/bb */
-    double steepness;  /* the true lean is `lean` times this */
     bool all_in_reach; /* every slope within the farthest gives an l above the surface */
 } brdf_slope_plane;
 
-/* For v.z > 0. Next to the horizon, where 1 is nothing beside lean, that stops growing so that its powers remain within
- * range; steepness tells the rest. */
+/* For v of length 1 with v.z > 0; powers of 1/v.z must remain within range. */
 void brdf_slope_plane_prepare(brdf_slope_plane *, const graze_brdf *, graze_vec3 v);
 
 /* The inside of an ellipse: tau^2 < level + slant a. */

@@ -1,5 +1,5 @@
-/* Run by `make accuracy`: all functions of the reflectance models against arbitrary precision at millions of hard pairs, with
- * all processors. Prints the largest errors and where they are; exits with 1 where a promise is broken.
+/* Run by `make accuracy`: all functions of the reflectance models against arbitrary precision at millions of hard
+ * pairs, with all processors. Prints the largest errors and where they are; exits with 1 where a promise is broken.
  *
  *   accuracy PAIRS [FILE]    so many pairs in double, and a quarter as many in float; worst cases into FILE */
 #include <pthread.h>

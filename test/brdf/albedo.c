@@ -238,6 +238,11 @@ static double reference_ray(const double_exponential *rule, int wanted, double v
     return sum;
 }
 
+static graze_vec3 normalized(graze_vec3 v) {
+    double length = sqrt(dot(v, v));
+    return (graze_vec3){v.x / length, v.y / length, v.z / length};
+}
+
 /* Half a turn from T = 0 to T = 0 with both signs of T, in intervals between which the azimuth crosses an axis. */
 static double reference(int wanted, const graze_brdf *brdf, graze_vec3 v) {
     const double_exponential rule = make_double_exponential();
@@ -359,19 +364,65 @@ static void every_view_has_an_albedo(void **state) {
                 double albedo = graze_brdf_albedo(&brdf, direction(cosines[i], 1));
                 assert_true(albedo >= 0 && albedo <= (model == GRAZE_BRDF_GMD ? 1 : DBL_MAX));
             }
-    /* Nothing where v is not above the surface, or no direction; its length does not matter. */
-    const graze_vec3 none[] = {{1, 0, 0},        {.6, 0, -.8},     {0, 0, NAN},           {NAN, 0, .8},
-                               {0, 0, INFINITY}, {INFINITY, 0, 1}, {DBL_MAX, DBL_MAX, 1}, {3, 4, 5e-324}};
+    /* Nothing where v is not above the surface, or no direction. */
+    const graze_vec3 none[] = {{1, 0, 0},        {.6, 0, -.8},     {0, 0, NAN},       {NAN, 0, .8},   {0, NAN, .8},
+                               {0, 0, INFINITY}, {INFINITY, 0, 1}, {0, -INFINITY, 1}, {0, 0, -5e-324}};
     for (int model = 0; model < 4; ++model) {
         const graze_brdf brdf = {(graze_brdf_model)model, .1, .1};
         for (unsigned i = 0; i < sizeof none / sizeof *none; ++i) {
             assert_true(graze_brdf_albedo(&brdf, none[i]) == 0);
             assert_true(graze_brdf_ward_acceptance(&brdf, none[i]) == 0);
         }
-        for (double size = 1e-300; size < 1e300; size *= 1e100)
-            assert_near(graze_brdf_albedo(&brdf, (graze_vec3){.6 * size, 0, .8 * size}),
-                        graze_brdf_albedo(&brdf, (graze_vec3){.6, 0, .8}), 1e-11);
     }
+}
+
+/* With h = l + v, value x l.z depends on v.z only through h, where a v.z far below alpha is nothing, and through the
+ * factors 1/sqrt(v.z) of (4), 1/v.z of (5) and 1/max(l.z, v.z) of Ward-Neumann: so from 1e-25, where other coordinates
+ * tell the albedo, it follows those powers of the cosine, 0 for two of the models, down to the smallest. */
+static void growth_next_to_the_horizon(void **state) {
+    (void)state;
+    static const double alphas[][2] = {{1e-6, 10}, {10, 1e-6}, {1e-6, 1}, {.001, .5}, {.1, .1}, {1e-6, 1e-6}, {.3, .2}};
+    static const double azimuths[] = {0, 53, 90}, powers[4] = {0, .5, 1, 0};
+    static const double steepest[][2] = {/* the length along the surface, and v.z */
+                                         {1, 1e-29},      {1, 1e-35},   {1, 1e-150},      {1, 1e-300},
+                                         {1, 1e-310},     {1, 5e-324},  {5, 5e-324},      {1e100, 1e-9},
+                                         {1e300, 1e-300}, {DBL_MAX, 1}, {1e-280, 1e-320}, {DBL_MAX, 5e-324}};
+    for (int model = 0; model < 4; ++model)
+        for (int i = 0; i < 7 * 3; ++i) {
+            const graze_brdf brdf = {(graze_brdf_model)model, alphas[i % 7][0], alphas[i % 7][1]};
+            double azimuth = azimuths[i / 7] * pi / 180, exact = reference(model, &brdf, direction(1e-25, azimuth));
+            for (unsigned k = 0; k < sizeof steepest / sizeof *steepest; ++k) {
+                double length = steepest[k][0], z = steepest[k][1];
+                graze_vec3 v = {length * cos(azimuth), length * sin(azimuth), z};
+                long double law = exact * powl(1e-25L * length / z, powers[model]);
+                assert_near(graze_brdf_albedo(&brdf, v), (double)fminl(law, DBL_MAX), 1e-9);
+                assert_near(graze_brdf_ward_acceptance(&brdf, v), .5, 1e-9); /* (32) */
+            }
+        }
+}
+
+/* A vector and its double are one direction, to the bit; so are the longest vectors there are, and the shortest. */
+static void any_length(void **state) {
+    (void)state;
+    static const graze_vec3 views[] = {{1, 1, 1}, {3, -4, 12}, {-1, 0, 1}, {0, 7, 2}, {0, 0, 1}, {2, 1, 3}};
+    static const double sizes[] = {0x1p-1074, 0x1p-1073, 0x1p-1060, 0x1p-1022, 0x1p-600, 0x1p-1, 0x1p600, 0x1p1020};
+    for (int model = 0; model < 4; ++model)
+        for (int i = 0; i < 6; ++i) {
+            const graze_brdf brdf = {(graze_brdf_model)model, .1, i % 2 ? .1 : 1.5};
+            graze_vec3 v = views[i];
+            double albedo = graze_brdf_albedo(&brdf, v), accepted = graze_brdf_ward_acceptance(&brdf, v);
+            assert_near(albedo, reference(model, &brdf, normalized(v)), 1e-9);
+            assert_near(accepted, reference(ACCEPTANCE, &brdf, normalized(v)), 1e-9);
+            for (int k = 0; k < 8; ++k) {
+                graze_vec3 same = {v.x * sizes[k], v.y * sizes[k], v.z * sizes[k]};
+                assert_true(graze_brdf_albedo(&brdf, same) == albedo);
+                assert_true(graze_brdf_ward_acceptance(&brdf, same) == accepted);
+            }
+        }
+    const graze_brdf brdf = {GRAZE_BRDF_GMD, .1, .1};
+    const double one = graze_brdf_albedo(&brdf, (graze_vec3){1, 1, 1});
+    assert_near(graze_brdf_albedo(&brdf, (graze_vec3){1.2e308, 1.2e308, 1.2e308}), one, 1e-14);
+    assert_near(graze_brdf_albedo(&brdf, (graze_vec3){DBL_MAX, -DBL_MAX, DBL_MAX}), one, 1e-14);
 }
 
 int main(void) {
@@ -388,6 +439,8 @@ int main(void) {
         cmocka_unit_test(bounded_everywhere),
         cmocka_unit_test(albedos_at_grazing_angles),
         cmocka_unit_test(every_view_has_an_albedo),
+        cmocka_unit_test(growth_next_to_the_horizon),
+        cmocka_unit_test(any_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* The paired sampling's W where its parts cancel. */
-#include "brdf/odd_pair.h"
+#include "brdf/out_of_range.h"
 #include "brdf/pair_kernels.h"
 
 /* Terms of hz^2 - hx^2 - hy^2. */
@@ -46,7 +46,7 @@ static double_double difference_of_squares(graze_vec3 l, graze_vec3 v) {
 
 /* As in mean_weight_of_pair(), with vz u - 2q = (2 vz (hz^2 - hx^2 - hy^2) - lz h.h)/hz^2. What is not finite, where h
  * is far from the normal, does not count as a partner above the surface. */
-double_double brdf_odd_mean_weight(graze_vec3 l, graze_vec3 v) {
+double_double brdf_out_of_range_mean_weight(graze_vec3 l, graze_vec3 v) {
     half_vector h = half_vector_of(l, v);
     double_double own_share = dd_divide((double_double){l.z, 0}, h.z);
     double_double partner =

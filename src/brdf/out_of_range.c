@@ -1,5 +1,5 @@
-/* Pairs outside the ordinary domain: powers of two are taken out of them, and the same arithmetic serves. */
-#include "brdf/odd_pair.h"
+/* Pairs outside the range of pair_kernels.h: powers of two are taken out of them, and the same arithmetic serves. */
+#include "brdf/out_of_range.h"
 
 #include <float.h>
 #include <stdbool.h>
@@ -9,24 +9,24 @@
 static const double large_cosine = 0x1p400;
 
 /* exp(-3750) is 2^-5410; the largest factor before it, with the least roughness and cosine there is, is 2^4333. */
-static const double odd_limit = 3750;
+static const double out_of_range_limit = 3750;
 
 /* tau^2/100 is at most the exponent */
 static const double steepest_slope = 1024;
 
 /* A pair scaled by 2^scale, so that hz is in [1/2, 1], or, for denormal cosines, at least 2^-74. */
-typedef struct odd_pair {
+typedef struct scaled_pair {
     graze_vec3 l, v;
     int scale;
-} odd_pair;
+} scaled_pair;
 
 /* What pair_kernels.h makes of such a pair. */
-typedef struct odd_lobe {
-    odd_pair pair;
+typedef struct scaled_lobe {
+    scaled_pair pair;
     lobe_constants constants;
     half_vector h;
     lobe_terms terms;
-} odd_lobe;
+} scaled_lobe;
 
 /* x 2^power; DBL_MAX where that is too large. */
 static double scale_result(double x, double power) {
@@ -39,7 +39,7 @@ static graze_vec3 scale_vector(graze_vec3 a, int power) {
 }
 
 /* False where nothing is reflected: a cosine of absurd size. */
-static bool prepare_pair(odd_pair *pair, graze_vec3 l, graze_vec3 v) {
+static bool prepare_pair(scaled_pair *pair, graze_vec3 l, graze_vec3 v) {
     double hz = l.z + v.z;
     if (!(hz < large_cosine))
         return false;
@@ -52,7 +52,7 @@ static bool prepare_pair(odd_pair *pair, graze_vec3 l, graze_vec3 v) {
 }
 
 /* The same, but false as well where E is nothing in double precision whatever it is multiplied by. */
-static bool prepare_lobe(odd_lobe *lobe, const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+static bool prepare_lobe(scaled_lobe *lobe, const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
     if (!prepare_pair(&lobe->pair, l, v))
         return false;
     l = lobe->pair.l;
@@ -66,9 +66,9 @@ static bool prepare_lobe(odd_lobe *lobe, const graze_brdf *brdf, graze_vec3 l, g
     return true;
 }
 
-static double finish_gmd(const odd_lobe *lobe, double_double factor, int power) {
+static double finish_gmd(const scaled_lobe *lobe, double_double factor, int power) {
     double correction = gmd_correction(&lobe->constants, &lobe->terms);
-    powered_number f = times_gaussian(factor, correction, &lobe->terms, odd_limit);
+    powered_number f = times_gaussian(factor, correction, &lobe->terms, out_of_range_limit);
     return scale_result(f.number, f.power + power);
 }
 
@@ -90,8 +90,8 @@ static int normalise_cosines(graze_brdf_model model, double *lz, double *vz) {
     return power;
 }
 
-double brdf_odd_value(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
-    odd_lobe lobe;
+double brdf_out_of_range_value(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    scaled_lobe lobe;
     if (!prepare_lobe(&lobe, brdf, l, v))
         return 0;
     if (brdf->model == GRAZE_BRDF_GMD)
@@ -99,29 +99,29 @@ double brdf_odd_value(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
     double lz = l.z, vz = v.z;
     int power = normalise_cosines(brdf->model, &lz, &vz);
     double_double factor = dd_divide(lobe.constants.quarter, cosine_factor(brdf->model, lz, vz));
-    powered_number f = times_gaussian(factor, 0, &lobe.terms, odd_limit);
+    powered_number f = times_gaussian(factor, 0, &lobe.terms, out_of_range_limit);
     return scale_result(f.number, f.power - power);
 }
 
-double brdf_odd_ward_density(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
-    odd_lobe lobe;
+double brdf_out_of_range_ward_density(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    scaled_lobe lobe;
     if (!prepare_lobe(&lobe, brdf, l, v))
         return 0;
     return finish_gmd(&lobe, ward_density_factor(&lobe.h, &lobe.terms), lobe.pair.scale);
 }
 
-double brdf_odd_pair_density(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
-    odd_lobe lobe;
+double brdf_out_of_range_pair_density(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    scaled_lobe lobe;
     if (!prepare_lobe(&lobe, brdf, l, v))
         return 0;
-    double_double weight = brdf_odd_mean_weight(lobe.pair.l, lobe.pair.v);
+    double_double weight = brdf_out_of_range_mean_weight(lobe.pair.l, lobe.pair.v);
     double_double factor = pair_density_factor(&lobe.h, &lobe.terms, lobe.pair.l.z, weight);
     return finish_gmd(&lobe, factor, lobe.pair.scale);
 }
 
 /* weight x f_model/f_new. h may be very long compared with hz: h.h needs a power of two of its own. */
-static double odd_weight_of_model(const graze_brdf *brdf, const odd_pair *pair, double_double weight, graze_vec3 l,
-                                  graze_vec3 v) {
+static double scaled_weight_of_model(const graze_brdf *brdf, const scaled_pair *pair, double_double weight,
+                                     graze_vec3 l, graze_vec3 v) {
     double longest = fabs(pair->l.x + pair->v.x) + fabs(pair->l.y + pair->v.y) + 1;
     if (!(longest <= DBL_MAX))
         return 0;
@@ -134,19 +134,19 @@ static double odd_weight_of_model(const graze_brdf *brdf, const odd_pair *pair, 
     return scale_result(weight_of_model(brdf->model, weight, &h, lz, vz).hi, -2 * (pair->scale + length) - power);
 }
 
-double brdf_odd_ward_weight(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
-    odd_pair pair;
+double brdf_out_of_range_ward_weight(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    scaled_pair pair;
     if (!prepare_pair(&pair, l, v))
         return 0;
     double_double hz = exact_positive_sum(pair.l.z, pair.v.z);
     double_double weight = dd_divide((double_double){2 * pair.l.z, 0}, hz);
-    return brdf->model == GRAZE_BRDF_GMD ? weight.hi : odd_weight_of_model(brdf, &pair, weight, l, v);
+    return brdf->model == GRAZE_BRDF_GMD ? weight.hi : scaled_weight_of_model(brdf, &pair, weight, l, v);
 }
 
-double brdf_odd_pair_weight(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
-    odd_pair pair;
+double brdf_out_of_range_pair_weight(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    scaled_pair pair;
     if (!prepare_pair(&pair, l, v))
         return 0;
-    double_double weight = brdf_odd_mean_weight(pair.l, pair.v);
-    return brdf->model == GRAZE_BRDF_GMD ? fmin(weight.hi, 1) : odd_weight_of_model(brdf, &pair, weight, l, v);
+    double_double weight = brdf_out_of_range_mean_weight(pair.l, pair.v);
+    return brdf->model == GRAZE_BRDF_GMD ? fmin(weight.hi, 1) : scaled_weight_of_model(brdf, &pair, weight, l, v);
 }
