@@ -142,9 +142,7 @@ static graze_status expand_file(expansion *e, const char *name, const place *whe
     char *bytes = file ? read_stream(file, &length) : NULL;
     graze_status status;
     if (!bytes) {
-        /* The user's mistake, though the system tells of it. */
-        report_system_error(e->report, where, "cannot read the options in '@%s'", name);
-        status = GRAZE_INPUT_ERROR;
+        status = report_file_error(e->report, where, "cannot read the options in '@%s'", name);
     } else if (memchr(bytes, 0, length)) {
         status = report_error(e->report, where, "'@%s' is not a file of options: it has zero bytes", name);
     } else {
@@ -225,9 +223,10 @@ static bool is_plain(const char *word) {
     return *word && word[strspn(word, plain)] == 0;
 }
 
-/* Hands the word's text to `put`, character by character, in single quotes if need be. */
-static void quote_word(const char *word, void (*put)(void *user, char), void *user) {
-    if (is_plain(word)) {
+/* Hands the word's text to `put`, character by character, in single quotes where `plain` does not say that it needs
+ * none. */
+static void quote_word(const char *word, bool plain, void (*put)(void *user, char), void *user) {
+    if (plain) {
         for (; *word; word++)
             put(user, *word);
         return;
@@ -249,7 +248,7 @@ static void put_to_file(void *user, char c) {
 }
 
 void options_print_word(FILE *out, const char *word) {
-    quote_word(word, put_to_file, out);
+    quote_word(word, is_plain(word) && word[0] != '@', put_to_file, out);
 }
 
 typedef struct line {
@@ -269,7 +268,7 @@ void options_command_line(char *buffer, size_t size, int argc, char **argv) {
     for (int i = 0; i < argc; i++) {
         if (i > 0)
             put_to_line(&l, ' ');
-        quote_word(argv[i], put_to_line, &l);
+        quote_word(argv[i], is_plain(argv[i]), put_to_line, &l);
     }
     *l.next = 0;
 }

@@ -65,6 +65,8 @@ typedef enum options_outcome {
  * its present value in re-readable form (options before it reflected) to standard output. */
 graze_status options_parse(const option_table *, options_arguments *, int *operand_count, const char *const **operands,
                            options_outcome *, const graze_report *);
+/* A word in quotes where a shell or a file of options would need them, for `print`. */
+void options_print_word(FILE *, const char *word);
 /* All words as given (before expansion), quoted where a shell would need it, for headers; line breaks become blanks. In
  * `buffer`, cut to `size`. */
 void options_command_line(char *buffer, size_t size, int argc, char **argv);

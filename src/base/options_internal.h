@@ -13,8 +13,6 @@ struct options_arguments {
 
 /* Long options have Graze's manners, short ones Radiance's. */
 bool options_is_long(const option *);
-/* A word in quotes where a shell would need them. */
-void options_print_word(FILE *, const char *word);
 /* To standard output; a write that fails is an error. */
 graze_status options_print_defaults(const option_table *, const graze_report *);
 graze_status options_print_help(const option_table *, const graze_report *);

@@ -19,9 +19,10 @@ void parallel_for(int threads, size_t count, void (*work)(void *user, size_t ind
  * several at once, `write` empties them (one call at a time, in the order they were read), each as soon as those before
  * it are written, even while `read` waits for input. */
 typedef struct pipeline {
-    int threads;     /* of `work`; 1: all steps in the caller's thread */
-    void **chunks;   /* chunk_count pieces of memory that go round and bound what is in flight */
-    int chunk_count; /* at least 1; 3 * threads is a good number */
+    int threads;  /* of `work`; 1: all steps in the caller's thread */
+    void *chunks; /* chunk_count pieces of chunk_size bytes, that go round and bound what is in flight */
+    size_t chunk_size;
+    int chunk_count; /* at least 1 */
     void *user;
     /* Fills the chunk; *more = false when there is nothing (left) to put into it: reading is then over. An error also
      * ends reading; chunks read before are still worked on and written, then the error is returned. */
@@ -30,6 +31,8 @@ typedef struct pipeline {
     /* An error ends the pipeline at once (no further read begins, but one under way is waited for); it is returned. */
     graze_status (*write)(void *user, void *chunk);
 } pipeline;
+/* A good number of chunks for so many threads. */
+int pipeline_chunk_count(int threads);
 graze_status pipeline_run(const pipeline *, const graze_report *);
 
 #endif

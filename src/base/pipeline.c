@@ -7,7 +7,7 @@
 #include "base/parallel_team.h"
 #include "base/report.h"
 
-/* Chunks are numbered as they are read, and number n lies in chunks[n % chunk_count]. All threads do the same: whenever
+/* Chunks are numbered as they are read, and number n lies in chunk n % chunk_count. All threads do the same: whenever
  * one is free it writes the next chunk if that is ready, or else reads one and works on it. Reading and writing each
  * are one thread's at a time, and never under the lock: while one waits for input, the others write. */
 typedef struct flow {
@@ -20,6 +20,10 @@ typedef struct flow {
     bool input_ended, broken; /* broken: by a failed write */
     graze_status read_status, write_status;
 } flow;
+
+static void *chunk_at(const pipeline *p, size_t index) {
+    return (char *)p->chunks + index * p->chunk_size;
+}
 
 static size_t slot(const flow *f, uint64_t number) {
     return (size_t)(number % (uint64_t)f->line->chunk_count);
@@ -44,7 +48,7 @@ static void write_chunk(flow *f) {
     size_t i = slot(f, f->next_write);
     f->writing = true;
     pthread_mutex_unlock(&f->lock);
-    graze_status status = f->line->write(f->line->user, f->line->chunks[i]);
+    graze_status status = f->line->write(f->line->user, chunk_at(f->line, i));
     pthread_mutex_lock(&f->lock);
     f->writing = false;
     f->ready[i] = false;
@@ -56,7 +60,7 @@ static void write_chunk(flow *f) {
 
 static void work_on_chunk(flow *f, size_t i, int worker) {
     pthread_mutex_unlock(&f->lock);
-    f->line->work(f->line->user, f->line->chunks[i], worker);
+    f->line->work(f->line->user, chunk_at(f->line, i), worker);
     pthread_mutex_lock(&f->lock);
     f->ready[i] = true;
     pthread_cond_broadcast(&f->changed);
@@ -67,7 +71,7 @@ static void read_and_work(flow *f, int worker) {
     bool more = true;
     f->reading = true;
     pthread_mutex_unlock(&f->lock);
-    graze_status status = f->line->read(f->line->user, f->line->chunks[i], &more);
+    graze_status status = f->line->read(f->line->user, chunk_at(f->line, i), &more);
     pthread_mutex_lock(&f->lock);
     f->reading = false;
     if (status || !more) {
@@ -98,14 +102,19 @@ static void run_flow(void *user, int worker) {
 static graze_status run_alone(const pipeline *p) {
     for (;;) {
         bool more = true;
-        graze_status status = p->read(p->user, p->chunks[0], &more);
+        graze_status status = p->read(p->user, p->chunks, &more);
         if (status || !more)
             return status;
-        p->work(p->user, p->chunks[0], 0);
-        status = p->write(p->user, p->chunks[0]);
+        p->work(p->user, p->chunks, 0);
+        status = p->write(p->user, p->chunks);
         if (status)
             return status;
     }
+}
+
+/* While a thread works on one chunk, one can wait to be written, and one be read ahead. */
+int pipeline_chunk_count(int threads) {
+    return threads > 1 ? 3 * threads : 1;
 }
 
 graze_status pipeline_run(const pipeline *p, const graze_report *report) {

@@ -95,6 +95,14 @@ void record_append_records(record_buffer *b, record_format format, int digits, c
     }
 }
 
+bool record_is_big_endian(void) {
+    const union {
+        unsigned short number;
+        unsigned char first;
+    } order = {1};
+    return order.first == 0;
+}
+
 static void wait_until_writable(int descriptor) {
     struct pollfd p = {.fd = descriptor, .events = POLLOUT};
     poll(&p, 1, -1);

@@ -11,26 +11,26 @@
 #include "base/record_scan.h"
 #include "base/text.h"
 
-/* --- Troubles ---------------------------------------------------------------------------------------------------- */
+/* --- Errors ------------------------------------------------------------------------------------------------------ */
 
-void record_note(record_trouble *t, const char *format, ...) {
+void record_note(record_error *e, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    t->status = GRAZE_INPUT_ERROR;
-    t->error = t->line = t->column = 0;
-    vsnprintf(t->text, sizeof t->text, format, arguments);
+    e->status = GRAZE_INPUT_ERROR;
+    e->error_number = e->line = e->column = 0;
+    vsnprintf(e->text, sizeof e->text, format, arguments);
     va_end(arguments);
 }
 
-void record_note_place(record_trouble *t, int line, size_t column) {
-    t->line = line;
-    t->column = column < INT_MAX ? (int)column + 1 : 0;
+void record_note_place(record_error *e, int line, size_t column) {
+    e->line = line;
+    e->column = column < INT_MAX ? (int)column + 1 : 0;
 }
 
-void record_set_trouble(record_portion *p, size_t count, const char *text) {
-    unsigned long long number = p->first + count + 1;
-    p->count = count;
-    record_note(&p->trouble, "record %llu: %s", number, text);
+void record_set_error(record_chunk *c, size_t count, const char *text) {
+    unsigned long long number = c->first + count + 1;
+    c->count = count;
+    record_note(&c->error, "record %llu: %s", number, text);
 }
 
 void record_advance(int *line, size_t *column, const char *from, const char *to) {
@@ -53,24 +53,31 @@ static void copy_word(const char *word, const char *limit, char text[48]) {
     memcpy(text, whole ? "" : "...", whole ? 1 : 4);
 }
 
-void record_set_word_trouble(record_portion *p, size_t count, const char *word, const char *limit) {
+void record_set_word_error(record_chunk *c, size_t count, const char *word, const char *limit) {
     char shown[48], text[96];
     copy_word(word, limit, shown);
     double value;
     const char *end = number_scan(word, limit, &value);
     bool too_large = end && text_is_blank(*end);
     snprintf(text, sizeof text, "'%s' is %s", shown, too_large ? "too large a number" : "not a number");
-    record_set_trouble(p, count, text);
-    int line = p->line;
-    size_t column = p->column;
-    record_advance(&line, &column, p->bytes, word);
-    record_note_place(&p->trouble, line, column);
+    record_set_error(c, count, text);
+    int line = c->line;
+    size_t column = c->column;
+    record_advance(&line, &column, c->bytes, word);
+    record_note_place(&c->error, line, column);
 }
 
-static void set_number_trouble(record_portion *p, size_t finite) {
-    char text[64];
-    snprintf(text, sizeof text, "its number %zu is not finite", finite % p->fields + 1);
-    record_set_trouble(p, finite / p->fields, text);
+void record_describe_not_finite(char message[RECORD_MESSAGE_SIZE], size_t index) {
+    snprintf(message, RECORD_MESSAGE_SIZE, "its number %zu is not finite", index + 1);
+}
+
+/* `finite` numbers stand before the first that is not finite. */
+static void set_number_error(record_chunk *c, size_t finite) {
+    char text[RECORD_MESSAGE_SIZE];
+    if (finite == c->count * c->fields)
+        return;
+    record_describe_not_finite(text, finite % c->fields);
+    record_set_error(c, finite / c->fields, text);
 }
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
@@ -90,34 +97,32 @@ size_t record_scan_words(const char **at, const char *limit, double *values, siz
     return good;
 }
 
-static const double *convert_words(record_portion *p, double *room) {
-    const char *at = p->bytes, *limit = p->bytes + p->length;
-    size_t numbers = p->count * p->fields, good = record_scan_words(&at, limit, room, numbers);
+static const double *convert_words(record_chunk *c, double *room) {
+    const char *at = c->bytes, *limit = c->bytes + c->length;
+    size_t numbers = c->count * c->fields, good = record_scan_words(&at, limit, room, numbers);
     if (good < numbers)
-        record_set_word_trouble(p, good / p->fields, at, limit);
+        record_set_word_error(c, good / c->fields, at, limit);
     return room;
 }
 
-const float *record_floats(record_portion *p) {
-    const float *values = (const float *)(const void *)p->bytes;
-    size_t numbers = p->count * p->fields, finite = record_finite_floats(values, numbers);
-    if (finite < numbers)
-        set_number_trouble(p, finite);
-    return values;
+static const double *convert_floats(record_chunk *c, double *room) {
+    const float *values = record_floats(c);
+    set_number_error(c, record_finite_floats(values, c->count * c->fields));
+    for (size_t i = 0; i < c->count * c->fields; i++)
+        room[i] = (double)values[i];
+    return room;
 }
 
-const double *record_doubles(record_portion *p, double *room) {
-    if (p->format == RECORD_ASCII)
-        return convert_words(p, room);
-    if (p->format == RECORD_FLOAT) {
-        const float *values = record_floats(p);
-        for (size_t i = 0; i < p->count * p->fields; i++)
-            room[i] = (double)values[i];
-        return room;
-    }
-    const double *values = (const double *)(const void *)p->bytes;
-    size_t numbers = p->count * p->fields, finite = record_finite_doubles(values, numbers);
-    if (finite < numbers)
-        set_number_trouble(p, finite);
+const float *record_floats(const record_chunk *c) {
+    return (const float *)(const void *)c->bytes;
+}
+
+const double *record_doubles(record_chunk *c, double *room) {
+    if (c->format == RECORD_ASCII)
+        return convert_words(c, room);
+    if (c->format == RECORD_FLOAT)
+        return convert_floats(c, room);
+    const double *values = (const double *)(const void *)c->bytes;
+    set_number_error(c, record_finite_doubles(values, c->count * c->fields));
     return values;
 }

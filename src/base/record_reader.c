@@ -12,12 +12,12 @@
 #include "base/record_scan.h"
 #include "base/text.h"
 
-/* Bytes are read in front of the memory that portions are made of: at ROOM or more, and a blank stands before the first
+/* Bytes are read in front of the memory that chunks are made of: at ROOM or more, and a blank stands before the first
  * record. What goes through it all should lie in a processor's nearer caches. */
 enum { FRONT = 64, ROOM = 1 << 17, READ_AT_LEAST = 1 << 16, BYTES_A_FIELD = 64 };
 
-/* A record is known to be whole when the blank behind its last word is there. At the proper end of the input one is put there.
- */
+/* A record is known to be whole when the blank behind its last word is there. At the proper end of the input one is put
+ * there. */
 struct record_reader {
     int descriptor;
     char *name;
@@ -41,9 +41,9 @@ struct record_reader {
     size_t column;   /* bytes of this line before `begin` */
 };
 
-void record_portion_free(record_portion *p) {
-    free(p->memory);
-    *p = (record_portion){0};
+void record_chunk_free(record_chunk *c) {
+    free(c->memory);
+    *c = (record_chunk){0};
 }
 
 static char *allocate(size_t room) {
@@ -183,41 +183,41 @@ static size_t count_records(record_reader *r, size_t capacity) {
     return whole < capacity ? whole : capacity;
 }
 
-/* The bytes of records before `cut` and those behind it lie in one piece of memory: the portion gets it, or a copy of
+/* The bytes of records before `cut` and those behind it lie in one piece of memory: the chunk gets it, or a copy of
  * its share, whichever moves fewer bytes. */
-static bool hand_over(record_reader *r, record_portion *p, size_t cut) {
+static bool hand_over(record_reader *r, record_chunk *c, size_t cut) {
     size_t taken = cut - r->begin, left = r->end - cut;
     bool exchange = left < taken;
     size_t needed = exchange ? r->room : taken;
-    if (p->capacity < needed) {
-        free(p->memory);
-        p->memory = allocate(needed);
-        p->capacity = p->memory ? needed : 0;
-        if (!p->memory)
+    if (c->capacity < needed) {
+        free(c->memory);
+        c->memory = allocate(needed);
+        c->capacity = c->memory ? needed : 0;
+        if (!c->memory)
             return false;
     }
     if (exchange) {
         char *memory = r->memory;
-        memcpy(p->memory + FRONT, memory + cut, left);
-        r->memory = p->memory;
-        p->memory = memory;
-        p->bytes = memory + r->begin;
+        memcpy(c->memory + FRONT, memory + cut, left);
+        r->memory = c->memory;
+        c->memory = memory;
+        c->bytes = memory + r->begin;
         r->scanned = r->scanned - cut + FRONT;
         r->begin = FRONT;
         r->end = FRONT + left;
     } else {
-        memcpy(p->memory + FRONT, r->memory + r->begin, taken);
-        p->bytes = p->memory + FRONT;
+        memcpy(c->memory + FRONT, r->memory + r->begin, taken);
+        c->bytes = c->memory + FRONT;
         r->begin = cut;
     }
-    p->length = taken;
+    c->length = taken;
     return true;
 }
 
-static void set_out_of_memory(record_trouble *t) {
-    record_note(t, "out of memory");
-    t->status = GRAZE_SYSTEM_ERROR;
-    t->error = ENOMEM;
+static void set_out_of_memory(record_error *e) {
+    record_note(e, "out of memory");
+    e->status = GRAZE_SYSTEM_ERROR;
+    e->error_number = ENOMEM;
 }
 
 /* Moves the place, and what has been counted, on to `cut`. */
@@ -233,65 +233,65 @@ static void advance_to(record_reader *r, size_t cut) {
     r->column = cut - (size_t)(p - r->memory) + (lines ? 0 : r->column);
 }
 
-static void give(record_reader *r, record_portion *p, size_t count) {
+static void give(record_reader *r, record_chunk *c, size_t count) {
     size_t cut = r->record_size ? r->begin + count * r->record_size : find_cut(r);
     if (!r->record_size)
         advance_to(r, cut);
-    if (!hand_over(r, p, cut)) {
+    if (!hand_over(r, c, cut)) {
         r->finished = true;
-        set_out_of_memory(&p->trouble);
+        set_out_of_memory(&c->error);
         return;
     }
-    p->count = count;
+    c->count = count;
     r->record += count;
 }
 
 /* --- What is wrong where there is no whole record ---------------------------------------------------------------- */
 
 /* The first of an incomplete record's words that is no number, or else what `text` says of the record. */
-static void set_words_trouble(record_reader *r, record_portion *p) {
+static void set_words_error(record_reader *r, record_chunk *c) {
     const char *at = r->memory + r->begin, *limit = r->memory + r->end;
     double value;
-    p->bytes = at;
+    c->bytes = at;
     for (size_t i = 0; i < r->words; i++)
         if (record_scan_words(&at, limit, &value, 1) == 0) {
-            record_set_word_trouble(p, 0, at, limit);
+            record_set_word_error(c, 0, at, limit);
             break;
         }
-    p->bytes = NULL;
+    c->bytes = NULL;
 }
 
-static void set_cut_short(record_reader *r, record_portion *p) {
+static void set_cut_short(record_reader *r, record_chunk *c) {
     unsigned long long record = r->record + 1;
     if (r->record_size) {
         if (r->end > r->begin)
-            record_note(&p->trouble, "record %llu is cut short: %zu of %zu bytes", record, r->end - r->begin,
+            record_note(&c->error, "record %llu is cut short: %zu of %zu bytes", record, r->end - r->begin,
                         r->record_size);
         return;
     }
     if (r->words == 0)
         return;
-    record_note(&p->trouble, "record %llu is cut short: %zu of %zu numbers", record, r->words, r->fields);
+    record_note(&c->error, "record %llu is cut short: %zu of %zu numbers", record, r->words, r->fields);
     /* The input ends before the blank that was put there. */
     advance_to(r, r->end - 1);
-    record_note_place(&p->trouble, r->line, r->column);
+    record_note_place(&c->error, r->line, r->column);
 }
 
 /* Notes what is wrong; at the input's proper end nothing is. */
-static void stop(record_reader *r, record_portion *p) {
+static void stop(record_reader *r, record_chunk *c) {
     r->finished = true;
-    set_words_trouble(r, p);
-    if (p->trouble.status)
+    set_words_error(r, c);
+    if (c->error.status)
         return;
     if (!r->ended) {
-        record_note(&p->trouble, "record %llu is longer than %zu bytes", (unsigned long long)r->record + 1, r->room);
-        record_note_place(&p->trouble, r->line, r->column);
+        record_note(&c->error, "record %llu is longer than %zu bytes", (unsigned long long)r->record + 1, r->room);
+        record_note_place(&c->error, r->line, r->column);
     } else if (r->error) {
-        record_note(&p->trouble, "cannot read");
-        p->trouble.status = GRAZE_SYSTEM_ERROR;
-        p->trouble.error = r->error;
+        record_note(&c->error, "record %llu: cannot read", (unsigned long long)r->record + 1);
+        c->error.status = GRAZE_SYSTEM_ERROR;
+        c->error.error_number = r->error;
     } else {
-        set_cut_short(r, p);
+        set_cut_short(r, c);
     }
 }
 
@@ -318,12 +318,12 @@ static size_t plan_read(record_reader *r, size_t capacity) {
     return needed < room ? needed : room;
 }
 
-bool record_read(record_reader *r, record_portion *p, size_t capacity) {
-    p->first = r->record;
-    p->count = p->length = 0;
-    p->trouble.status = GRAZE_OK;
-    p->format = r->format;
-    p->fields = r->fields;
+bool record_read(record_reader *r, record_chunk *c, size_t capacity) {
+    c->first = r->record;
+    c->count = c->length = 0;
+    c->error.status = GRAZE_OK;
+    c->format = r->format;
+    c->fields = r->fields;
     size_t count = 0;
     while (!r->finished) {
         count = count_records(r, capacity);
@@ -337,24 +337,24 @@ bool record_read(record_reader *r, record_portion *p, size_t capacity) {
     }
     if (r->finished)
         return false;
-    p->line = r->line;
-    p->column = r->column;
+    c->line = r->line;
+    c->column = r->column;
     if (count > 0)
-        give(r, p, count);
+        give(r, c, count);
     else
-        stop(r, p);
-    return p->count > 0 || p->trouble.status;
+        stop(r, c);
+    return c->count > 0 || c->error.status;
 }
 
-graze_status record_report_trouble(const record_reader *r, const record_portion *p) {
-    const record_trouble *t = &p->trouble;
-    const place where = {.file = r->name, .line = t->line, .column = t->column};
-    if (!t->status)
+graze_status record_report_error(const record_reader *r, const record_chunk *c) {
+    const record_error *e = &c->error;
+    const place where = {.file = r->name, .line = e->line, .column = e->column};
+    if (!e->status)
         return GRAZE_OK;
-    if (t->status != GRAZE_SYSTEM_ERROR)
-        return report_error(r->report, &where, "%s", t->text);
-    if (t->error == ENOMEM)
+    if (e->status != GRAZE_SYSTEM_ERROR)
+        return report_error(r->report, &where, "%s", e->text);
+    if (e->error_number == ENOMEM)
         return report_out_of_memory(r->report);
-    errno = t->error;
-    return report_system_error(r->report, &where, "%s", t->text);
+    errno = e->error_number;
+    return report_file_error(r->report, &where, "%s", e->text);
 }

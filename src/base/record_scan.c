@@ -37,15 +37,16 @@ enum { VECTORS_MAX = 255 };
             *lines += line_ends[i];                                                                                    \
         }                                                                                                              \
         return whole;                                                                                                  \
-    }
+    }                                                                                                                  \
+    _Static_assert(VECTORS_MAX <= UINT8_MAX, "each vector can end a word")
 
-DEFINE_COUNT(count_in_16, bytes16)
+DEFINE_COUNT(count_in_16, bytes16);
 #ifdef __x86_64__
 typedef uint8_t bytes32 __attribute__((vector_size(32)));
-__attribute__((target("avx2"))) DEFINE_COUNT(count_in_32, bytes32)
+__attribute__((target("avx2"))) DEFINE_COUNT(count_in_32, bytes32);
 #endif
 
-    static size_t count_in_vectors(const char *bytes, size_t length, size_t *words, size_t *lines) {
+static size_t count_in_vectors(const char *bytes, size_t length, size_t *words, size_t *lines) {
 #ifdef __x86_64__
     if (length >= sizeof(bytes32) && __builtin_cpu_supports("avx2"))
         return count_in_32(bytes, length, words, lines);
@@ -63,37 +64,25 @@ void record_count_ends(const char *bytes, size_t length, size_t *words, size_t *
     }
 }
 
-/* A number times 0 is 0 if it is finite, and else NaN. These look whether there is any of those, which is quick,
- * before they look where. */
+/* A function that gives how many values there are before the first that is not finite. A number times 0 is 0 if it is
+ * finite, and else NaN: that looks whether there is any of those, which is quick, before it looks where. */
+#define DEFINE_FINITE(name, real, vector)                                                                              \
+    size_t name(const real *values, size_t count) {                                                                    \
+        enum { LANES = sizeof(vector) / sizeof(real) };                                                                \
+        bits2 found = {0};                                                                                             \
+        size_t i = 0;                                                                                                  \
+        for (; i + LANES <= count; i += LANES) {                                                                       \
+            vector v;                                                                                                  \
+            memcpy(&v, values + i, sizeof v);                                                                          \
+            found |= (bits2)(v * 0 != 0);                                                                              \
+        }                                                                                                              \
+        if (found[0] | found[1])                                                                                       \
+            i = 0;                                                                                                     \
+        while (i < count && isfinite(values[i]))                                                                       \
+            i++;                                                                                                       \
+        return i;                                                                                                      \
+    }                                                                                                                  \
+    _Static_assert(sizeof(bits2) == sizeof(vector), "all bits of a comparison are looked at")
 
-size_t record_finite_floats(const float *values, size_t count) {
-    enum { LANES = sizeof(floats4) / sizeof(float) };
-    bits2 found = {0};
-    size_t i = 0;
-    for (; i + LANES <= count; i += LANES) {
-        floats4 v;
-        memcpy(&v, values + i, sizeof v);
-        found |= (bits2)(v * 0 != 0);
-    }
-    if (found[0] | found[1])
-        i = 0;
-    while (i < count && isfinite(values[i]))
-        i++;
-    return i;
-}
-
-size_t record_finite_doubles(const double *values, size_t count) {
-    enum { LANES = sizeof(doubles2) / sizeof(double) };
-    bits2 found = {0};
-    size_t i = 0;
-    for (; i + LANES <= count; i += LANES) {
-        doubles2 v;
-        memcpy(&v, values + i, sizeof v);
-        found |= (bits2)(v * 0 != 0);
-    }
-    if (found[0] | found[1])
-        i = 0;
-    while (i < count && isfinite(values[i]))
-        i++;
-    return i;
-}
+DEFINE_FINITE(record_finite_floats, float, floats4);
+DEFINE_FINITE(record_finite_doubles, double, doubles2);

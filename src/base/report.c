@@ -113,16 +113,35 @@ graze_status(report_error)(const graze_report *report, const place *where, const
     return GRAZE_INPUT_ERROR;
 }
 
-graze_status(report_system_error)(const graze_report *report, const place *where, const char *format, ...) {
-    int number = errno;
+__attribute__((format(printf, 4, 0))) static void report_cause(const graze_report *report, const place *where,
+                                                               int number, const char *format, va_list arguments) {
     char cause[256];
     if (strerror_r(number, cause, sizeof cause) != 0)
         snprintf(cause, sizeof cause, "error %d", number);
+    report_list(report, GRAZE_ERROR, where, cause, format, arguments);
+}
+
+graze_status(report_system_error)(const graze_report *report, const place *where, const char *format, ...) {
+    int number = errno;
     va_list arguments;
     va_start(arguments, format);
-    report_list(report, GRAZE_ERROR, where, cause, format, arguments);
+    report_cause(report, where, number, format, arguments);
     va_end(arguments);
     return GRAZE_SYSTEM_ERROR;
+}
+
+static bool is_users_mistake(int number) {
+    return number == ENOENT || number == ENOTDIR || number == EISDIR || number == EACCES || number == ENAMETOOLONG ||
+           number == ELOOP;
+}
+
+graze_status(report_file_error)(const graze_report *report, const place *where, const char *format, ...) {
+    int number = errno;
+    va_list arguments;
+    va_start(arguments, format);
+    report_cause(report, where, number, format, arguments);
+    va_end(arguments);
+    return is_users_mistake(number) ? GRAZE_INPUT_ERROR : GRAZE_SYSTEM_ERROR;
 }
 
 graze_status(report_out_of_memory)(const graze_report *report) {

@@ -22,6 +22,10 @@ graze_status report_error(const graze_report *report, const place *where, const 
 /* As report_error, with ": " and the text of `errno` behind the message. */
 graze_status report_system_error(const graze_report *report, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* As report_system_error, of a file that the user named: GRAZE_INPUT_ERROR where `errno` says that the name leads
+ * nowhere, to a directory, or to what the user may not open. */
+graze_status report_file_error(const graze_report *report, const place *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 graze_status report_out_of_memory(const graze_report *report);
 void report_warning(const graze_report *report, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -30,6 +34,7 @@ void report_warning(const graze_report *report, const place *where, const char *
 #ifdef __clang_analyzer__
 #define report_error(...)            ((report_error)(__VA_ARGS__), GRAZE_INPUT_ERROR)
 #define report_system_error(...)     ((report_system_error)(__VA_ARGS__), GRAZE_SYSTEM_ERROR)
+#define report_file_error(...)       ((report_file_error)(__VA_ARGS__), GRAZE_SYSTEM_ERROR)
 #define report_out_of_memory(report) ((report_out_of_memory)(report), GRAZE_SYSTEM_ERROR)
 #endif
 

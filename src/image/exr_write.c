@@ -149,7 +149,7 @@ graze_status image_write_exr(const image *picture, const char *path, const char 
     place where = {.file = name};
     exr_sink sink = {.descriptor = open(path, O_WRONLY | O_TRUNC | O_CREAT | O_CLOEXEC, 0666)};
     if (sink.descriptor < 0)
-        return report_system_error(report, &where, "cannot be opened for writing");
+        return report_file_error(report, &where, "cannot be opened for writing");
     exr_result_t result = write_picture(picture, name, &sink);
     if (close(sink.descriptor) != 0 && !sink.error)
         sink.error = errno;

@@ -26,8 +26,8 @@ bool image_output_is_special(const char *file) {
     return stat(file, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
-static graze_status system_error(const image_output *output, const char *text) {
-    return report_system_error(output->report, &(place){.file = output->file}, "%s", text);
+static graze_status file_error(const image_output *output, const char *text) {
+    return report_file_error(output->report, &(place){.file = output->file}, "%s", text);
 }
 
 /* Makes a file that was not there before in the directory whose name has this length. */
@@ -47,7 +47,7 @@ static graze_status make_temporary(image_output *output, const char *directory, 
     }
     if (descriptor >= 0 && close(descriptor) == 0)
         return GRAZE_OK;
-    graze_status status = system_error(output, "cannot be created");
+    graze_status status = file_error(output, "cannot be created");
     free(output->path);
     output->path = NULL;
     return status;
@@ -66,7 +66,7 @@ graze_status image_output_check(const char *file, const graze_report *report) {
         return GRAZE_OK;
     if (stat(file, &status) == 0 && S_ISDIR(status.st_mode)) {
         errno = EISDIR;
-        return report_system_error(report, &where, "cannot be created");
+        return report_file_error(report, &where, "cannot be created");
     }
     const char *slash = strrchr(file, '/');
     char *directory = slash ? strndup(file, (size_t)(slash - file) + 1) : strdup(".");
@@ -77,7 +77,7 @@ graze_status image_output_check(const char *file, const graze_report *report) {
     if (good && access(file, F_OK) != 0)
         good = errno != ENAMETOOLONG;
     free(directory);
-    return good ? GRAZE_OK : report_system_error(report, &where, "cannot be created");
+    return good ? GRAZE_OK : report_file_error(report, &where, "cannot be created");
 }
 
 static graze_status begin_special(image_output *output, bool direct) {
@@ -121,9 +121,9 @@ static graze_status copy_to_special(const image_output *output) {
     FILE *out = in ? fopen(output->file, "wb") : NULL;
     graze_status status = GRAZE_OK;
     if (!out || !copy_bytes(in, out))
-        status = system_error(output, "cannot be written");
+        status = file_error(output, "cannot be written");
     if (out && fclose(out) != 0 && status == GRAZE_OK)
-        status = system_error(output, "cannot be written");
+        status = file_error(output, "cannot be written");
     if (in)
         fclose(in);
     return status;
@@ -137,7 +137,7 @@ graze_status image_output_finish(image_output *output, graze_status written) {
         else if (rename(output->path, output->final) == 0)
             is_temporary = false;
         else
-            written = system_error(output, "cannot be put in its place");
+            written = file_error(output, "cannot be put in its place");
     }
     if (is_temporary)
         unlink(output->path);

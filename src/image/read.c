@@ -123,11 +123,11 @@ graze_status image_read(image **result, const char *file, const graze_report *re
     *result = NULL;
     FILE *in = fopen(file, "rb");
     if (!in)
-        return report_system_error(report, &where, "cannot be opened");
+        return report_file_error(report, &where, "cannot be opened");
     int first = getc(in);
     graze_status status = GRAZE_OK;
     if (first == EOF)
-        status = ferror(in) ? report_system_error(report, &where, "cannot be read")
+        status = ferror(in) ? report_file_error(report, &where, "cannot be read")
                             : report_error(report, &where, "the file is empty");
     else if (first == '#' || image_format_of(file) == IMAGE_FORMAT_HDR) {
         ungetc(first, in);

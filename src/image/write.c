@@ -13,7 +13,7 @@ static graze_status write_hdr_file(const image *picture, const char *path, const
                                    const graze_report *report) {
     FILE *out = fopen(path, "wb");
     if (!out)
-        return report_system_error(report, &(place){.file = file}, "cannot be opened for writing");
+        return report_file_error(report, &(place){.file = file}, "cannot be opened for writing");
     graze_status status = image_write_hdr(picture, out, file, report);
     if (fclose(out) != 0 && status == GRAZE_OK)
         status = report_system_error(report, &(place){.file = file}, "cannot write the picture");

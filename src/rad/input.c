@@ -35,7 +35,7 @@ static graze_status read_all(rad_text *text, int descriptor, const char *name, c
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
-            return report_system_error(report, where, "cannot read %s", name);
+            return report_file_error(report, where, "cannot read %s", name);
         text->length += (size_t)got;
         text->bytes[text->length] = 0;
         if (got == 0)
@@ -63,7 +63,7 @@ graze_status rad_input_file(rad_text *text, const char *path, const place *where
     *text = (rad_text){0};
     int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)
-        return report_system_error(report, where, "cannot open %s", path);
+        return report_file_error(report, where, "cannot open %s", path);
     graze_status status = rad_input_descriptor(text, descriptor, path, where, report);
     close(descriptor);
     return status;

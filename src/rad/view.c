@@ -162,7 +162,7 @@ graze_status rad_view_read(rad_view *view, const char *file, const graze_report 
     bool is_standard_input = !strcmp(file, "-");
     FILE *in = is_standard_input ? stdin : fopen(file, "r");
     if (!in)
-        return report_system_error(report, NULL, "cannot open view file %s", file);
+        return report_file_error(report, NULL, "cannot open view file %s", file);
     char *line = NULL;
     size_t capacity = 0;
     int found = 0;
@@ -171,7 +171,7 @@ graze_status rad_view_read(rad_view *view, const char *file, const graze_report 
             found += read_view_line(view, line);
     graze_status status = GRAZE_OK;
     if (ferror(in))
-        status = report_system_error(report, NULL, "cannot read view file %s", file);
+        status = report_file_error(report, NULL, "cannot read view file %s", file);
     else if (found == 0)
         status = report_error(report, NULL, "no view in %s", file);
     free(line);

@@ -108,8 +108,8 @@ static graze_status read_file(const job *j, const char *name, bool expand, const
         return report_out_of_memory(report);
     if (!found) {
         errno = ENOENT;
-        return report_system_error(report, j->context->parent, "xform: cannot find file \"%s\"",
-                                   rad_show(name, strlen(name)).text);
+        return report_file_error(report, j->context->parent, "xform: cannot find file \"%s\"",
+                                 rad_show(name, strlen(name)).text);
     }
     if (!strncmp(path, "./", 2))
         path += 2;

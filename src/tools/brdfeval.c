@@ -72,6 +72,15 @@ static graze_status check_together(const eval_options *o, const query *q, const 
     return GRAZE_OK;
 }
 
+/* A material that is diffuse alone has values, but no density of samples. */
+static graze_status check_lobe(const evaluation *e, const graze_report *report) {
+    for (int i = 0; i < e->field_count; i++)
+        if (!e->reflectance.has_lobe && e->fields[i]->scaling == SCALING_PLAIN)
+            return report_error(report, NULL, "the material reflects nothing specularly: it has no lobe for '%c'",
+                                e->fields[i]->letter);
+    return GRAZE_OK;
+}
+
 static graze_status read_question(evaluation *e, const eval_options *o, const graze_report *report) {
     const char *letters = o->letters;
     graze_status status = find_query(o->query, &e->query, report);
@@ -84,10 +93,11 @@ static graze_status read_question(evaluation *e, const eval_options *o, const gr
     if (status == GRAZE_OK)
         status = reflectance_options_read(&o->reflectance, !o->grid && e->query->kind != QUERY_MEAN, &e->reflectance,
                                           report);
-    if (status == GRAZE_OK)
-        evaluation_set_fields(e, letters);
     e->angles = o->angles;
-    return status;
+    if (status != GRAZE_OK)
+        return status;
+    evaluation_set_fields(e, letters);
+    return check_lobe(e, report);
 }
 
 /* --- Answers ----------------------------------------------------------------------------------------------------- */
@@ -153,8 +163,10 @@ static graze_status read_letters(void *target, const char *suffix, int count, co
 static void print_letters(void *target, FILE *out) {
     const eval_options *o = target;
     const query *q = evaluation_find_query(o->query);
-    if (o->letters || q)
-        reflectance_print_words(out, 2, (const char *const[]){"-o", o->letters ? o->letters : q->usual});
+    if (!o->letters && !q)
+        return;
+    fputs("-o ", out);
+    options_print_word(out, o->letters ? o->letters : q->usual);
 }
 
 int main(int argc, char **argv) {
@@ -164,8 +176,8 @@ int main(int argc, char **argv) {
     const option entries[EVAL_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "Questions and answers", 0, 0, NULL, NULL},
         {"-q", OPTION_TEXT, &o.query, "QUERY", "eval, sample, pair, albedo or mean", 0, 0, NULL, NULL},
-        {"-o", OPTION_CUSTOM, &o, "SPEC", "fields: fcpwPW (eval), xyzpw or xyzPW (samples), aA (albedo)", 0, 0,
-         read_letters, print_letters},
+        {"-o", OPTION_CUSTOM, &o, "SPEC", "fields: fcpwPW (eval), xyzpw or xyzPW (samples), aA (albedo), m (mean)", 0,
+         0, read_letters, print_letters},
         {"--angles", OPTION_FLAG, &o.angles, NULL, "directions are theta and phi in degrees", 0, 0, NULL, NULL},
         {"--grid", OPTION_TEXT, &o.grid, "SPEC", "no records: a table, as in tl=60,pl=180,tv=-89:89:1", 0, 0, NULL,
          NULL},

@@ -50,12 +50,12 @@ static void answer_ray(job *j, const double *record, uint64_t number, record_buf
     ray_output_append(&j->output, out, &ray, &hit, &answer);
 }
 
-static size_t answer_rays(void *user, const record_block *block, int worker, record_buffer *out, char *trouble) {
+static size_t answer_rays(void *user, const record_numbers *rays, int worker, record_buffer *out, char *message) {
     (void)worker;
-    (void)trouble;
-    for (size_t i = 0; i < block->count; i++)
-        answer_ray(user, block->values + i * RAY_FIELDS, block->first + i, out);
-    return block->count;
+    (void)message;
+    for (size_t i = 0; i < rays->count; i++)
+        answer_ray(user, rays->doubles + i * RAY_FIELDS, rays->first + i, out);
+    return rays->count;
 }
 
 static graze_status write_header(const job *j, const tool_arguments *arguments, const graze_report *report) {

@@ -552,6 +552,32 @@ static void test_command_line(void **state) {
     assert_int_equal(buffer[0], 'x');
 }
 
+/* What a file of options gives back as it was. */
+static void test_print_word(void **state) {
+    (void)state;
+    static const struct {
+        const char *word, *printed;
+    } cases[] = {
+        {"a@b", "a@b"}, {"@a", "'@a'"},        {"@", "'@'"}, {"$a", "'$a'"}, {"", "''"}, {"two\nlines", "'two\nlines'"},
+        {"#a", "'#a'"}, {"it's", "'it'\\''s'"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *text = NULL;
+        size_t length;
+        FILE *out = open_memstream(&text, &length);
+        options_print_word(out, cases[i].word);
+        fclose(out);
+        assert_string_equal(text, cases[i].printed);
+        setenv("GRAZE_TEST", text, 1);
+        free(text);
+        fixture f;
+        begin(&f);
+        assert_int_equal(RUN(&f, "$GRAZE_TEST"), GRAZE_OK);
+        assert_int_equal(f.count, 1);
+        assert_string_equal(f.operands[0], cases[i].word);
+        end(&f);
+    }
+}
+
 static void test_standard_error_report(void **state) {
     (void)state;
     FILE *file = tmpfile();
@@ -586,6 +612,7 @@ int main(void) {
         cmocka_unit_test(test_bad_files_and_variables),
         cmocka_unit_test(test_long_file),
         cmocka_unit_test(test_command_line),
+        cmocka_unit_test(test_print_word),
         cmocka_unit_test(test_standard_error_report),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

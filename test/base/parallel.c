@@ -140,12 +140,9 @@ static graze_status write_number(void *user, void *memory) {
 
 static graze_status run_squares(squares *s, int threads, int chunk_count) {
     chunk memory[64] = {0};
-    void *chunks[64];
-    for (int i = 0; i < chunk_count; i++)
-        chunks[i] = &memory[i];
     s->threads = threads;
     s->caller = pthread_self();
-    pipeline p = {threads, chunks, chunk_count, s, read_number, square_number, write_number};
+    pipeline p = {threads, memory, sizeof *memory, chunk_count, s, read_number, square_number, write_number};
     graze_status status = pipeline_run(&p, NULL);
     assert_int_equal(s->misuse, 0);
     assert_true(s->most_in_flight <= chunk_count);
@@ -246,8 +243,7 @@ static void test_interactive_client(void **state) {
         assert_int_equal(pipe(back), 0);
         echo e = {there[0], back[1]};
         char memory[6];
-        void *chunks[6] = {memory, memory + 1, memory + 2, memory + 3, memory + 4, memory + 5};
-        server s = {{threads, chunks, 6, &e, read_byte, raise_byte, write_byte}, GRAZE_INPUT_ERROR};
+        server s = {{threads, memory, 1, 6, &e, read_byte, raise_byte, write_byte}, GRAZE_INPUT_ERROR};
         pthread_t thread;
         assert_int_equal(pthread_create(&thread, NULL, serve, &s), 0);
         for (int i = 0; i < 1000; i++) {

@@ -26,7 +26,7 @@
 typedef struct fixture {
     int input, output;
     record_reader *reader;
-    record_portion portion;
+    record_chunk chunk;
     captured c;
     double room[64];
     const double *values;
@@ -38,7 +38,7 @@ static void begin(fixture *f, record_format format, int fields) {
     assert_int_equal(pipe(ends), 0);
     f->input = ends[1];
     f->output = ends[0];
-    f->portion = (record_portion){0};
+    f->chunk = (record_chunk){0};
     captured_begin(&f->c);
     assert_int_equal(record_reader_open(&f->reader, f->output, "in", format, fields, &f->c.report), GRAZE_OK);
 }
@@ -49,7 +49,7 @@ static void finish_input(fixture *f) {
 }
 
 static void end(fixture *f) {
-    record_portion_free(&f->portion);
+    record_chunk_free(&f->chunk);
     record_reader_close(f->reader);
     close(f->output);
     if (f->input >= 0)
@@ -67,11 +67,11 @@ static void send_text(fixture *f, const char *text) {
 /* Records, then the status of what is wrong with the one behind them. */
 static graze_status receive(fixture *f, size_t capacity) {
     f->count = 0;
-    if (!record_read(f->reader, &f->portion, capacity))
+    if (!record_read(f->reader, &f->chunk, capacity))
         return GRAZE_OK;
-    f->values = record_doubles(&f->portion, f->room);
-    f->count = f->portion.count;
-    return record_report_trouble(f->reader, &f->portion);
+    f->values = record_doubles(&f->chunk, f->room);
+    f->count = f->chunk.count;
+    return record_report_error(f->reader, &f->chunk);
 }
 
 static void expect_values(const fixture *f, size_t count, const double *values) {
@@ -174,7 +174,7 @@ static void test_interactive(void **state) {
 }
 
 /* The good records come first, then the error, once. */
-static void expect_trouble(record_format format, const void *bytes, size_t length, size_t good, const char *text) {
+static void expect_error(record_format format, const void *bytes, size_t length, size_t good, const char *text) {
     fixture f;
     begin(&f, format, 3);
     send_bytes(&f, bytes, length);
@@ -195,7 +195,7 @@ static void expect_trouble(record_format format, const void *bytes, size_t lengt
     end(&f);
 }
 
-static void test_ascii_trouble(void **state) {
+static void test_ascii_errors(void **state) {
     (void)state;
     static const struct {
         const char *input;
@@ -223,28 +223,28 @@ static void test_ascii_trouble(void **state) {
         {"\001\033[2J 1 2", 0, "in:1:1: record 1: '\?\?[2J' is not a number"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        expect_trouble(RECORD_ASCII, cases[i].input, strlen(cases[i].input), cases[i].good, cases[i].text);
-    expect_trouble(RECORD_ASCII, "1 2\0 3", 6, 0, "in:1:3: record 1: '2\?' is not a number");
+        expect_error(RECORD_ASCII, cases[i].input, strlen(cases[i].input), cases[i].good, cases[i].text);
+    expect_error(RECORD_ASCII, "1 2\0 3", 6, 0, "in:1:3: record 1: '2\?' is not a number");
 }
 
-static void test_binary_trouble(void **state) {
+static void test_binary_errors(void **state) {
     (void)state;
     float floats[] = {1, 2, 3, 4, 5, 6, 7};
     double doubles[] = {1, 2, 3, 4, 5, 6, 7};
-    expect_trouble(RECORD_FLOAT, floats, 13, 1, "in: record 2 is cut short: 1 of 12 bytes");
-    expect_trouble(RECORD_FLOAT, floats, 23, 1, "in: record 2 is cut short: 11 of 12 bytes");
-    expect_trouble(RECORD_DOUBLE, doubles, 56, 2, "in: record 3 is cut short: 8 of 24 bytes");
-    expect_trouble(RECORD_DOUBLE, doubles, 3, 0, "in: record 1 is cut short: 3 of 24 bytes");
+    expect_error(RECORD_FLOAT, floats, 13, 1, "in: record 2 is cut short: 1 of 12 bytes");
+    expect_error(RECORD_FLOAT, floats, 23, 1, "in: record 2 is cut short: 11 of 12 bytes");
+    expect_error(RECORD_DOUBLE, doubles, 56, 2, "in: record 3 is cut short: 8 of 24 bytes");
+    expect_error(RECORD_DOUBLE, doubles, 3, 0, "in: record 1 is cut short: 3 of 24 bytes");
     floats[4] = NAN;
-    expect_trouble(RECORD_FLOAT, floats, 24, 1, "in: record 2: its number 2 is not finite");
+    expect_error(RECORD_FLOAT, floats, 24, 1, "in: record 2: its number 2 is not finite");
     doubles[0] = -INFINITY;
-    expect_trouble(RECORD_DOUBLE, doubles, 48, 0, "in: record 1: its number 1 is not finite");
+    expect_error(RECORD_DOUBLE, doubles, 48, 0, "in: record 1: its number 1 is not finite");
 }
 
 static void open_descriptor(fixture *f, int descriptor, record_format format, int fields) {
     f->input = -1;
     f->output = descriptor;
-    f->portion = (record_portion){0};
+    f->chunk = (record_chunk){0};
     captured_begin(&f->c);
     assert_int_equal(record_reader_open(&f->reader, f->output, "in", format, fields, &f->c.report), GRAZE_OK);
 }
@@ -254,9 +254,10 @@ static void test_failing_read(void **state) {
     for (int i = 0; i < 2; i++) {
         fixture f;
         open_descriptor(&f, i ? open("/dev/null", O_WRONLY) : open("/tmp", O_RDONLY), RECORD_ASCII, 1);
-        assert_int_equal(receive(&f, 1), GRAZE_SYSTEM_ERROR);
+        assert_int_equal(receive(&f, 1), i ? GRAZE_SYSTEM_ERROR : GRAZE_INPUT_ERROR);
         assert_int_equal(f.count, 0);
-        assert_string_equal(f.c.text, i ? "in: cannot read: Bad file descriptor" : "in: cannot read: Is a directory");
+        assert_string_equal(f.c.text, i ? "in: record 1: cannot read: Bad file descriptor"
+                                        : "in: record 1: cannot read: Is a directory");
         assert_int_equal(receive(&f, 1), GRAZE_OK);
         assert_int_equal(f.count, 0);
         assert_int_equal(f.c.errors, 1);
@@ -390,7 +391,7 @@ static void test_every_split(void **state) {
     expect_same_however_sent(RECORD_DOUBLE, doubles, sizeof doubles, 3, "in: record 4: its number 3 is not finite");
 }
 
-/* Where a portion's floats are, for the reader of floats alone. */
+/* Where a chunk's floats are, as they came, for the reader of floats alone. */
 static void test_floats_in_place(void **state) {
     (void)state;
     fixture f;
@@ -398,33 +399,35 @@ static void test_floats_in_place(void **state) {
     float sent[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     send_bytes(&f, sent, 30);
     for (size_t from = 0; from < 6; from += 3) {
-        assert_true(record_read(f.reader, &f.portion, 1));
-        const float *floats = record_floats(&f.portion);
+        assert_true(record_read(f.reader, &f.chunk, 1));
+        const float *floats = record_floats(&f.chunk);
         assert_int_equal((uintptr_t)floats % sizeof(float), 0);
         assert_memory_equal(floats, sent + from, 12);
     }
     sent[8] = NAN;
     send_bytes(&f, (char *)sent + 30, 6);
-    assert_true(record_read(f.reader, &f.portion, 5));
-    record_floats(&f.portion);
-    assert_int_equal(f.portion.count, 0);
-    assert_int_equal(f.portion.trouble.status, GRAZE_INPUT_ERROR);
-    assert_string_equal(f.portion.trouble.text, "record 3: its number 3 is not finite");
+    assert_true(record_read(f.reader, &f.chunk, 5));
+    assert_true(isnan(record_floats(&f.chunk)[2]));
+    assert_int_equal(f.chunk.count, 1);
+    record_doubles(&f.chunk, f.room);
+    assert_int_equal(f.chunk.count, 0);
+    assert_int_equal(f.chunk.error.status, GRAZE_INPUT_ERROR);
+    assert_string_equal(f.chunk.error.text, "record 3: its number 3 is not finite");
     end(&f);
 }
 
-static void test_set_trouble(void **state) {
+static void test_set_error(void **state) {
     (void)state;
     fixture f;
     begin(&f, RECORD_ASCII, 3);
     send_text(&f, "1 2 3\n4 5 6\n7 8 9\n");
     assert_int_equal(receive(&f, 1), GRAZE_OK);
     assert_int_equal(receive(&f, 9), GRAZE_OK);
-    assert_int_equal(f.portion.first, 1);
-    assert_int_equal(f.portion.count, 2);
-    record_set_trouble(&f.portion, 1, "100% wrong");
-    assert_int_equal(f.portion.count, 1);
-    assert_int_equal(record_report_trouble(f.reader, &f.portion), GRAZE_INPUT_ERROR);
+    assert_int_equal(f.chunk.first, 1);
+    assert_int_equal(f.chunk.count, 2);
+    record_set_error(&f.chunk, 1, "100% wrong");
+    assert_int_equal(f.chunk.count, 1);
+    assert_int_equal(record_report_error(f.reader, &f.chunk), GRAZE_INPUT_ERROR);
     assert_string_equal(f.c.text, "in: record 3: 100% wrong");
     end(&f);
 }
@@ -445,9 +448,9 @@ static void test_cancel(void **state) {
         pthread_t thread;
         assert_int_equal(pthread_create(&thread, NULL, cancel, f.reader), 0);
         for (int i = 0; i < 2; i++)
-            assert_false(record_read(f.reader, &f.portion, 1));
-        assert_int_equal(f.portion.count, 0);
-        assert_int_equal(f.portion.trouble.status, GRAZE_OK);
+            assert_false(record_read(f.reader, &f.chunk, 1));
+        assert_int_equal(f.chunk.count, 0);
+        assert_int_equal(f.chunk.error.status, GRAZE_OK);
         assert_int_equal(f.c.errors, 0);
         pthread_join(thread, NULL);
         end(&f);
@@ -473,10 +476,10 @@ static void test_long_file(void **state) {
         double *values = malloc(2 * capacities[k] * sizeof *values);
         assert_non_null(values);
         size_t total = 0;
-        while (f.portion.trouble.status == GRAZE_OK && record_read(f.reader, &f.portion, capacities[k])) {
-            assert_ptr_equal(record_doubles(&f.portion, values), values);
-            assert_int_equal(f.portion.first, total);
-            for (size_t i = 0; i < f.portion.count; i++, total++) {
+        while (f.chunk.error.status == GRAZE_OK && record_read(f.reader, &f.chunk, capacities[k])) {
+            assert_ptr_equal(record_doubles(&f.chunk, values), values);
+            assert_int_equal(f.chunk.first, total);
+            for (size_t i = 0; i < f.chunk.count; i++, total++) {
                 char text[32];
                 snprintf(text, sizeof text, "-%zu.%zu", total, total % 10);
                 if (values[2 * i] != (double)total || values[2 * i + 1] != strtod(text, NULL))
@@ -484,7 +487,7 @@ static void test_long_file(void **state) {
             }
         }
         assert_int_equal(total, RECORDS);
-        record_report_trouble(f.reader, &f.portion);
+        record_report_error(f.reader, &f.chunk);
         assert_string_equal(f.c.text, "in:60001:3: record 60001: 'x' is not a number");
         free(values);
         end(&f);
@@ -605,9 +608,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ascii),           cmocka_unit_test(test_capacity),
         cmocka_unit_test(test_empty_inputs),    cmocka_unit_test(test_interactive),
-        cmocka_unit_test(test_ascii_trouble),   cmocka_unit_test(test_binary_trouble),
+        cmocka_unit_test(test_ascii_errors),    cmocka_unit_test(test_binary_errors),
         cmocka_unit_test(test_failing_read),    cmocka_unit_test(test_every_split),
-        cmocka_unit_test(test_floats_in_place), cmocka_unit_test(test_set_trouble),
+        cmocka_unit_test(test_floats_in_place), cmocka_unit_test(test_set_error),
         cmocka_unit_test(test_cancel),          cmocka_unit_test(test_long_file),
         cmocka_unit_test(test_endless_records), cmocka_unit_test(test_transfer),
     };

@@ -64,6 +64,24 @@ static void test_system_error(void **state) {
     assert_non_null(strstr(c.text, "98765"));
 }
 
+static void test_file_error(void **state) {
+    (void)state;
+    static const int users[] = {ENOENT, ENOTDIR, EISDIR, EACCES, ENAMETOOLONG, ELOOP};
+    static const int systems[] = {EIO, ENOSPC, ENOMEM, EMFILE, EBADF, EROFS};
+    captured c;
+    captured_begin(&c);
+    for (size_t i = 0; i < 6; i++) {
+        errno = users[i];
+        assert_int_equal(report_file_error(&c.report, NULL, "x"), GRAZE_INPUT_ERROR);
+        errno = systems[i];
+        assert_int_equal(report_file_error(&c.report, NULL, "x"), GRAZE_SYSTEM_ERROR);
+    }
+    errno = EISDIR;
+    report_file_error(&c.report, &(place){.file = "a.rad", .line = 2}, "cannot read %s", "b");
+    assert_string_equal(c.text, "a.rad:2: cannot read b: Is a directory");
+    assert_int_equal(c.errors, 13);
+}
+
 static void test_severities(void **state) {
     (void)state;
     captured c;
@@ -141,10 +159,11 @@ static void test_threads(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_place_prefix),     cmocka_unit_test(test_nested_commands),
-        cmocka_unit_test(test_percent_in_names), cmocka_unit_test(test_system_error),
-        cmocka_unit_test(test_severities),       cmocka_unit_test(test_discarding_report),
-        cmocka_unit_test(test_long_texts),       cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_place_prefix),      cmocka_unit_test(test_nested_commands),
+        cmocka_unit_test(test_percent_in_names),  cmocka_unit_test(test_system_error),
+        cmocka_unit_test(test_file_error),        cmocka_unit_test(test_severities),
+        cmocka_unit_test(test_discarding_report), cmocka_unit_test(test_long_texts),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,7 +47,9 @@ prints "below the surface there is nothing" "0 0 0 0 0 0" "0 0 -1 0 0 1\n" -rd .
 prints "... nor seen from there" "0 0 0 0 0 0" "0 0 1 .6 0 -.8\n" -rd .5 -o fcpwPW
 prints "... nor on the horizon" "0 0" "1 0 0 0 0 1\n0 0 1 0 1 0\n"
 prints "angles in degrees" "12.4339799 12.4339799" \
-    "36.86989764584402 0 36.86989764584402 180\n36.86989764584402 -100 36.86989764584402 440\n" --angles
+    "36.86989764584402 0 36.86989764584402 180\n36.86989764584402 -100 36.86989764584402 80\n" --angles
+prints "... also a whole turn, either way" "12.4339799 12.4339799" \
+    "-323.13010235415598 360 36.86989764584402 -180\n36.86989764584402 -360 323.13010235415598 360\n" --angles
 prints "90 degrees is the horizon" "0" "90 0 45 0\n" --angles
 prints "any length is taken" "12.4339799" "6e200 0 8e200 -6e-200 0 8e-200\n"
 printf "%b" "$mirror" | "$brdfeval" >exact
@@ -56,6 +58,18 @@ for length in 1.0000009 1.0000011; do
 done
 check "lengths off by rounding are left alone" sh -c "! cmp -s 'length 1.0000009' exact"
 check "... others not" test "$(cut -c1-10 <"length 1.0000011")" = "$(cut -c1-10 <exact)"
+
+# In the mirror direction at a cosine c the lobe is 1/(4 pi a^2 c^2), too large for a number, while this times c is not.
+grazing="1 0 1e-150 -1 0 1e-150\n"
+prints "a lobe too large, times its cosine" "7.957747154594767e160" "$grazing" -a 1e-6 -o c
+prints "... times a small reflectance" "7.957747154594767e305" "$grazing" -a 1e-6 -rs 1e-5
+prints "... too large even so" "1.797693134862315e308" "$grazing" -a 1e-6 -rs .9
+prints "... beside a diffuse part" "7.957747154594767e159" "$grazing" -a 1e-6 -rs .1 -rd .5 -o c
+grazing="1 0 1e-15 -1 0 1e-15\n"
+printf "$grazing" | python3 -c 'import sys, array; array.array("f", map(float, sys.stdin.read().split())).tofile(sys.stdout.buffer)' >grazing.flt
+single() { "$brdfeval" -a 1e-6 -ff "${@:2}" <grazing.flt | python3 -c 'import sys, array; a = array.array("f", sys.stdin.buffer.read()); print(" ".join("%.5e" % x for x in a)); sys.exit(" ".join("%.5e" % x for x in a) != sys.argv[1])' "$1"; }
+check "a lobe too large for floats, times its cosine" single "3.40282e+38 7.95775e+25 7.95775e+25" -o fcp
+check "... times a small reflectance" single "7.95775e+30 1.00000e-10" -rs 1e-10 -o fw
 
 # sample, pair, albedo.
 prints "Ward's sampling at s = 0 is the mirror direction" "-.6 0 .8 9.9471839 1" ".6 0 .8 0 .3\n" -q sample
@@ -238,9 +252,49 @@ fails "s of 1" 1 "record 2: s is 1" "0 0 1 .1 .2\n0 0 1 1 .2\n" "$brdfeval" -q s
 check "... with the answers before it" test "$(wc -l <out)" -eq 1
 fails "t below 0" 1 "record 1: t is -0.1" "0 0 1 .1 -.1\n" "$brdfeval" -q sample
 fails "u of 2" 1 "record 1: u is 2" "0 0 1 .1 .1 2\n" "$brdfeval" -q pair
+while read -r angle at record; do
+    fails "$at of $angle degrees" 1 "record 2: ${at/-/ of the } is $angle, but has to be between -360 and 360 degrees" \
+        "0 0 0 0\n$record\n0 0 0 0\n" "$brdfeval" --angles
+    check "... with the record before answered" test "$(wc -l <out)" -eq 1
+done <<'END'
+360.0001 theta-light 360.0001 0 0 0
+-361 phi-light 0 -361 0 0
+1e+308 theta-viewer 0 0 1e308 0
+-1e+308 phi-viewer 360 360 -360 -1e308
+END
+fails "a sample's viewer beyond 360 degrees" 1 "record 1: theta of the viewer is 400" "400 0 .1 .2 .3\n" "$brdfeval" -q pair --angles
+fails "... behind a record with a bad random number" 1 "record 1: s is 2" "0 0 2 0\n400 0 0 0\n" "$brdfeval" -q sample --angles
+fails "... after an answer in doubles" 1 "record 2: phi of the viewer is 720" \
+    '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0200\0206\0100' "$brdfeval" -q albedo --angles -fda
 fails "floats: a light without direction" 1 "record 2: the direction to the light is zero" \
     "$(printf '\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0200\\077%.0s' 1 2)$(printf '\\0%.0s' {1..24})" "$brdfeval" -ff
 check "... with the answers before it" test "$(wc -c <out)" -eq 4
+# not_finite FIELDS INPUT OPTIONS...: the first number of 300 that is not finite is found, wherever it stands and whatever it is.
+not_finite() {
+    "${PYTHON:-python3}" - "$@" <<'END'
+import array, os, subprocess, sys
+fields, file, options = int(sys.argv[1]), sys.argv[2], sys.argv[3:]
+good = array.array("f", open(file, "rb").read(300 * fields * 4))
+for index in range(fields):
+    for record, value in ((0, float("nan")), (299, float("-inf")), (257, float("inf")), (100, float("nan"))):
+        bad = good[:]
+        bad[record * fields + index] = value
+        if record == 100: # the first of several in this record and the next, and more than that is wrong with it
+            for k in range(index + 1, 2 * fields):
+                bad[record * fields + k] = float("inf")
+            for k in range(index):
+                bad[record * fields + k] = 0
+        run = subprocess.run([os.environ["BIN"] + "/brdfeval", "-ff", "-o", "p", *options], input=bad.tobytes(),
+                             capture_output=True)
+        said = f"record {record + 1}: its number {index + 1} is not finite"
+        if run.returncode != 1 or said not in run.stderr.decode() or len(run.stdout) != 4 * record:
+            sys.exit(f"{said}, not: {run.stderr}, {len(run.stdout)} bytes")
+END
+}
+check "floats: numbers that are not finite" not_finite 6 unit_floats
+check "... of directions that have to be normalised" not_finite 6 long_floats
+check "... of samples" not_finite 5 view_floats5 -q sample
+check "... of pairs, on three threads" not_finite 6 view_floats -q pair -o P -n 3
 fails "floats: a record cut short" 1 "record 1" "abcdefgh" "$brdfeval" -ff
 { seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; echo 0 0 0 0 0 1; seq 1000 | sed "s/.*/.6 0 .8 -.6 0 .8/"; } >late
 for n in 1 4; do
@@ -285,6 +339,17 @@ for given in "" "-q albedo" "-q sample -o zx" "-M file.rad name" "-q mean -M !ca
     "$brdfeval" @given -defaults >defaults
     sed 's/\t#.*//' defaults >reread
     check "defaults of '$(echo "$given" | tr -d '#')' can be read again" sh -c "'$brdfeval' @reread -defaults | cmp - defaults"
+done
+# ... whatever words they hold.
+quoted() { echo "'$(printf '%s' "$1" | sed "s/'/'\\\\''/g")'"; }
+long=$(printf '%9000s' '' | tr ' ' x)
+for word in @here '$THERE' $'two\nlines' $'a\rb\tc' "it's" 'a "b" \' '#x' "" @ "$long"; do
+    echo "-M $(quoted "$word") $(quoted "$word") -n 2" >given
+    "$brdfeval" @given -defaults >defaults
+    check "... with '$(echo "${word:0:20}" | tr '\n\r\t#' '    ')'" sh -c "'$brdfeval' @defaults -defaults | cmp - defaults"
+    "$brdfeval" @given 2>given_err
+    "$brdfeval" @defaults 2>err
+    check "... which are the same words" sh -c "cmp given_err err && grep -q 'cannot open' err"
 done
 check "--help names the options" sh -c "'$brdfeval' --help | grep -q -- --angles"
 check "--version" sh -c "'$brdfeval' --version | grep -q '^[^ ]* *[0-9Gr]'"

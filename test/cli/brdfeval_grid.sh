@@ -79,6 +79,8 @@ values "one value" "37.5" 37.5
 values "steps" "0 1 2 3" 0:3:1
 values "steps that do not meet the end" "0 0.3 0.6 0.9" 0:1:.3
 values "steps of a tenth, without rounding errors to be seen" "0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1" 0:1:.1
+values "an end beside a step does not bend the values before it" "0 30 60 89.9999999999999" 0:89.9999999999999:30
+values "... down" "1 0.7 0.4 0.10000000000000009" 1:.10000000000000009:-.3
 values "steps down" "3 2 1 0 -1" 3:-1:-1
 values "the end in spite of rounding" "89.9 89.92 89.94 89.96 89.98 90" 89.9:90:.02
 values "a step too far" "0" 0:1:2
@@ -88,6 +90,13 @@ values "one point" "4" 4:4/1
 values "exponents and signs" "-100 100" -1e2:+1E2/2
 check "a theta below 0 is the opposite azimuth" test "$("$brdfeval" --grid tl=40,tv=-20,pl=10,pv=30 | tail -1 | cut -d, -f5)" = \
     "$(echo "40 10 20 210" | "$brdfeval" --angles | tr -d '\t')"
+check "an end just below 1" test "$("$brdfeval" -q pair --grid "s=0:.9999999999999999:.1" | tail -n +2 | cut -d, -f3 | tr '\n' ' ')" = \
+    "0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 0.9999999999999999 "
+"$brdfeval" --npy -q albedo --grid "tv=.1:1.2000000000000002:.12345678901234567" >steps.npy
+check "steps of no decimal are FROM + i STEP" "$python" -c 'import struct, sys
+data = open("steps.npy", "rb").read(); data = data[10 + struct.unpack("<H", data[8:10])[0]:]
+values = [v for v, _, _ in struct.iter_unpack("=ddd", data)]
+sys.exit(values != [.1 + i * .12345678901234567 for i in range(9)])'
 check "midpoints" test "$("$brdfeval" -q sample --grid s=/4 | tail -n +2 | cut -d, -f3 | tr '\n' ' ')" = "0.125 0.375 0.625 0.875 "
 check "a symmetric grid is symmetric to the bit" sh -c "'$brdfeval' -q albedo -rs 0 --grid tv=-1:1/14 | awk -F, 'NR > 1 { v[NR - 1] = \$1 }
     END { for (i = 1; i <= 14; i++) if (v[i] + v[15 - i] != 0) exit 1 }'"

@@ -108,6 +108,8 @@ check "a roughness above the mirrors'" sh -c "echo 0 0 1 0 0 1 | '$brdfeval' -M 
 # What is wrong is told with its place.
 refuses() { fails "$1" 1 "$2" "$mirror" "$brdfeval" -M scene.rad "${@:3}"; }
 refuses "a mirror" "scene.rad:9:1: metal chrome: is a mirror" chrome
+refuses "densities of what is diffuse alone" "reflects nothing specularly: it has no lobe for 'P'" matte -o fwP
+refuses "... samples" "no lobe for 'x'" matte -q sample
 refuses "a lamp" "scene.rad:18:1: light lamp: shines" lamp
 refuses "another type" "scene.rad:19:1: glass pane: glass is not supported yet" pane
 refuses "a pattern" "scene.rad:15:1: brightfunc stripes: modifies plastic striped, which is not supported yet" striped
@@ -122,7 +124,8 @@ echo "void plastic red 0 0 4 .5 .1 .1 .05" >short.rad
 fails "a wrong number of arguments" 1 "short.rad:1:1: plastic red: 4 real arguments, but it needs 5" "" "$brdfeval" -M short.rad red
 echo "void plastik red" >wrong.rad
 fails "a scene that cannot be read" 1 "wrong.rad:1:" "" "$brdfeval" -M wrong.rad red
-fails "no such file" 2 "nowhere.rad" "" "$brdfeval" -M nowhere.rad red
+fails "no such file" 1 "nowhere.rad" "" "$brdfeval" -M nowhere.rad red
+fails "a directory" 1 "Is a directory" "" "$brdfeval" -M . red
 fails "a name missing" 1 "-M: expected a scene file, and the name of a material in it" "" "$brdfeval" -M scene.rad
 fails "a longer name" 1 "'-Mx'" "" "$brdfeval" -Mx scene.rad red
 fails "a scene and records on standard input" 1 "-M: the file cannot be '-'" "" "$brdfeval" -M - red

@@ -45,16 +45,17 @@ fails "up along the view" 1 "up" "" "$gpict" -vd 0 0 1 room.rad
 fails "a view of 200 degrees" 1 "view" "" "$gpict" -vh 200 room.rad
 fails "an unknown view type" 1 "unknown view type" "" "$gpict" -vtx room.rad
 fails "a view option cut short" 1 "-vp" "" "$gpict" -vp 1 2
+fails "a directory for a view file" 1 "Is a directory" "" "$gpict" -vf . room.rad
 fails "a view file without a view" 1 "room.rad" "" "$gpict" -vf room.rad room.rad
-fails "a missing view file" 2 "nowhere" "" "$gpict" -vf nowhere room.rad
+fails "a missing view file" 1 "nowhere" "" "$gpict" -vf nowhere room.rad
 fails "a picture of no size" 1 "-x" "" "$gpict" -x 0 room.rad
 fails "an unknown suffix" 1 "strange" "" "$gpict" -o picture.strange room.rad
-fails "a missing scene" 2 "nowhere.rad" "" "$gpict" nowhere.rad
+fails "a missing scene" 1 "nowhere.rad" "" "$gpict" nowhere.rad
 
 fails "the same file twice" 1 "written twice" "" "$gpict" -o a.hdr -o a.hdr room.rad
 fails "standard input twice" 1 "only one" "" "$gpict" - -
 mkdir -p folder.hdr
-fails "a directory for a picture" 2 "Is a directory" "" "$gpict" -o folder.hdr room.rad
+fails "a directory for a picture" 1 "Is a directory" "" "$gpict" -o folder.hdr room.rad
 rmdir folder.hdr
 "$gpict" -vtc -vh 360 -vv 179 -x 16 -y 16 --samples 2 room.rad >flat
 check "a view too flat for its pixels has one row at least" test -s flat
@@ -67,7 +68,7 @@ check "a file at its limit is told" test $? -eq 2 -a -s big.err -a ! -e big.hdr
 rm -f big.err
 
 # Bad output.
-fails "a folder that is not there" 2 "nowhere/a.hdr" "" "$gpict" $view -x 4 -y 4 -o nowhere/a.hdr room.rad
+fails "a folder that is not there" 1 "nowhere/a.hdr" "" "$gpict" $view -x 4 -y 4 -o nowhere/a.hdr room.rad
 if [ -w /dev/full ]; then
     "$gpict" $view -x 64 -y 64 --samples 2 room.rad >/dev/full 2>err
     check "a full disk" test $? -eq 2

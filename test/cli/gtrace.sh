@@ -92,7 +92,10 @@ fails "irradiance of nothing" 1 "-os" "" "$gtrace" -i -os room.rad
 fails "a missing option file" 1 "nowhere" "" "$gtrace" @nowhere
 
 # Bad scenes.
-fails "a missing scene" 2 "nowhere.rad" "" "$gtrace" nowhere.rad
+fails "a missing scene" 1 "nowhere.rad" "" "$gtrace" nowhere.rad
+fails "a directory for a scene" 1 "Is a directory" "" "$gtrace" .
+fails "a file for a directory" 1 "Not a directory" "" "$gtrace" room.rad/room.rad
+[ ! -r /proc/self/mem ] || fails "a scene that fails to be read" 2 "Input/output error" "" "$gtrace" /proc/self/mem
 echo "void plastic p 0 0 5 1 1 1 0" >cut.rad
 fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
 printf '#comment\nvoid glass g 0 0 3 1 1 1\ng sphere s 0 0 4 0 0 0 1\n' >glass.rad

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Records through a tool, on one thread and several: the first trouble ends the run, and everything before it is answered. TAP.
+# Records through a tool, on one thread and several: the first error ends the run, and everything before it is answered. TAP.
 source "$(dirname "$0")/../support/tap.sh"
 cd "$work" || exit 2
 gtrace=$BIN/gtrace
@@ -56,6 +56,7 @@ done
 # Inputs and outputs that stay open or fail.
 mkfifo pipe
 exec 3<>pipe
+[ ! -r /proc/self/mem ] || exec 4</proc/self/mem
 for n in 1 4; do
     printf "$ray\n$ray\n0 0 x 0 0 1\n" >&3
     timeout 60 "$gtrace" -h -n $n -os room.rad <pipe >out 2>err
@@ -65,11 +66,17 @@ for n in 1 4; do
     check "a closed output ends the run though more may come, -n $n" test "${PIPESTATUS[0]} $(wc -l <err)" = "2 1"
     wait
     "$gtrace" -h -n $n -os room.rad <. >out 2>err
-    check "a directory for input, -n $n" test "$? $(cat err)" = "2 gtrace: error: standard input: cannot read: Is a directory"
+    check "a directory for input, -n $n" test "$? $(cat err)" = \
+        "1 gtrace: error: standard input: record 1: cannot read: Is a directory"
+    if [ -r /proc/self/mem ]; then # nothing is at address 0
+        "$gtrace" -h -n $n -os room.rad <&4 >out 2>err
+        check "a failing read, -n $n" test "$? $(cat err)" = \
+            "2 gtrace: error: standard input: record 1: cannot read: Input/output error"
+    fi
     "$gtrace" -h -n $n -os room.rad <&- >out 2>err
     check "no input at all, -n $n" test "$? $(grep -c 'Bad file descriptor' err)" = "2 1"
     "$gtrace" -h -n $n -os room.rad <rays >/dev/full 2>err
     check "a full disk, -n $n" test "$? $(grep -c 'No space left' err)" = "2 1"
 done
-exec 3>&-
+exec 3>&- 4<&-
 plan

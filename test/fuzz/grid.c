@@ -15,6 +15,18 @@ static int lies_between(double value, double a, double b) {
     return value >= fmin(a, b) - slack && value <= fmax(a, b) + slack;
 }
 
+/* Values are FROM + i STEP, but for their own rounding: also those before a last one that is TO. */
+static void check_steps(const grid_axis *axis, uint64_t each) {
+    double from = axis->from / axis->scale, step = axis->step / axis->scale;
+    for (uint64_t i = 0; i < axis->count; i += each) {
+        double exact = from + (double)i * step, size = fabs(from) + fabs((double)i * step);
+        bool last = i > 0 && i + 1 == axis->count;
+        double value = grid_axis_value(axis, i);
+        MUST(fabs(value - exact) <= (last && axis->meets ? 4e-15 : 4e-16) * size);
+        MUST(!last || !axis->meets || value == axis->to);
+    }
+}
+
 static void check_axis(const grid *g, const grid_axis *axis) {
     MUST(axis->input >= 0 && axis->input < g->input_count && axis->count >= 1);
     double first = grid_axis_value(axis, 0), last = grid_axis_value(axis, axis->count - 1), before = first;
@@ -29,6 +41,8 @@ static void check_axis(const grid *g, const grid_axis *axis) {
     const char *name = g->names[axis->input];
     if (strlen(name) == 1) /* a random number */
         MUST(first >= 0 && first < 1 && last >= 0 && last < 1);
+    if (axis->kind == AXIS_STEPS)
+        check_steps(axis, step);
     if (axis->kind == AXIS_ENDS)
         MUST(first == axis->from && (last == axis->to || axis->count == 1));
 }

@@ -149,7 +149,7 @@ static verdict next_number(reference *r, double *value) {
     return v;
 }
 
-static void check_place(const reference *r, const record_trouble *t) {
+static void check_place(const reference *r, const record_error *e) {
     int line = 1, column = 1;
     for (size_t i = 0; i < r->at; i++) {
         column++;
@@ -158,36 +158,36 @@ static void check_place(const reference *r, const record_trouble *t) {
             column = 1;
         }
     }
-    MUST(t->line == line && t->column == column);
+    MUST(e->line == line && e->column == column);
 }
 
-static void check_text(const reference *r, const record_trouble *t, const char *what) {
+static void check_text(const reference *r, const record_error *e, const char *what) {
     char begin[64];
     snprintf(begin, sizeof begin, "record %zu", r->numbers / r->q->fields + 1);
     size_t length = strlen(begin);
-    MUST(strncmp(t->text, begin, length) == 0 && (t->text[length] == ':' || t->text[length] == ' '));
-    MUST(strstr(t->text, what));
-    for (const char *p = t->text; *p; p++)
+    MUST(strncmp(e->text, begin, length) == 0 && (e->text[length] == ':' || e->text[length] == ' '));
+    MUST(strstr(e->text, what));
+    for (const char *p = e->text; *p; p++)
         MUST((unsigned char)*p >= ' ');
 }
 
-/* Up to 100 kB no record is too long. */
-static void check_too_long(reference r, const record_trouble *t) {
+/* Up to 128 KiB no record is too long. */
+static void check_too_long(reference r, const record_error *e) {
     double value;
-    check_text(&r, t, "is longer than");
+    check_text(&r, e, "is longer than");
     size_t wanted = r.numbers + r.q->fields;
     verdict v = next_number(&r, &value);
     size_t begin = r.begin;
     while (v == GOOD && r.numbers < wanted)
         v = next_number(&r, &value);
-    MUST((v == GOOD ? r.at : r.q->size) - begin > 100000);
+    MUST((v == GOOD ? r.at : r.q->size) - begin >= 1 << 17);
 }
 
 /* Where records end, what is wrong there must be said, or nothing. */
-static void check_end(reference r, const record_trouble *t) {
+static void check_end(reference r, const record_error *e) {
     const question *q = r.q;
-    if (q->format == RECORD_ASCII && strstr(t->text, "is longer than") && t->status == GRAZE_INPUT_ERROR) {
-        check_too_long(r, t);
+    if (q->format == RECORD_ASCII && strstr(e->text, "is longer than") && e->status == GRAZE_INPUT_ERROR) {
+        check_too_long(r, e);
         return;
     }
     double value;
@@ -199,25 +199,27 @@ static void check_end(reference r, const record_trouble *t) {
     graze_status expected = v == BAD || (left && !q->fails) ? GRAZE_INPUT_ERROR
                             : q->fails                      ? GRAZE_SYSTEM_ERROR
                                                             : GRAZE_OK;
-    MUST(t->status == expected);
-    if (expected == GRAZE_SYSTEM_ERROR)
-        MUST(t->error == EIO);
+    MUST(e->status == expected);
+    if (expected == GRAZE_SYSTEM_ERROR) {
+        MUST(e->error_number == EIO);
+        check_text(&r, e, ": cannot read");
+    }
     if (expected != GRAZE_INPUT_ERROR)
         return;
     if (q->format == RECORD_ASCII) {
         r.at = v == BAD ? r.at : q->size;
-        check_place(&r, t);
+        check_place(&r, e);
     }
-    check_text(&r, t, v == ENDED ? "is cut short" : q->format == RECORD_ASCII ? "number" : "is not finite");
+    check_text(&r, e, v == ENDED ? "is cut short" : q->format == RECORD_ASCII ? "number" : "is not finite");
 }
 
-/* A portion's numbers against those of the reference, in both of the ways to get at them. */
-static void check_numbers(reference *r, record_portion *p, double *room) {
-    if (p->count == 0)
+/* A chunk's numbers against those of the reference, in both of the ways to get at them. */
+static void check_numbers(reference *r, record_chunk *c, double *room) {
+    if (c->count == 0)
         return;
-    const float *floats = p->format == RECORD_FLOAT ? record_floats(p) : NULL;
-    const double *doubles = record_doubles(p, room);
-    for (size_t i = 0; i < p->count * p->fields; i++) {
+    const float *floats = c->format == RECORD_FLOAT ? record_floats(c) : NULL;
+    const double *doubles = record_doubles(c, room);
+    for (size_t i = 0; i < c->count * c->fields; i++) {
         double value;
         MUST(next_number(r, &value) == GOOD);
         MUST(number_text_same_bits(doubles[i], value));
@@ -228,21 +230,21 @@ static void check_numbers(reference *r, record_portion *p, double *room) {
 static void read_all(const question *q, const graze_report *report) {
     reference r = {.q = q};
     record_reader *reader;
-    record_portion portion = {0};
+    record_chunk chunk = {0};
     double *room = malloc(q->capacity * q->fields * sizeof *room);
     MUST(room);
     MUST(record_reader_open(&reader, source.descriptor, "in", q->format, (int)q->fields, report) == GRAZE_OK);
     bool more;
     do {
         size_t given = r.numbers / q->fields;
-        more = record_read(reader, &portion, q->capacity);
-        MUST(portion.first == given && portion.count <= q->capacity);
-        MUST(more == (portion.count > 0 || portion.trouble.status != GRAZE_OK));
-        check_numbers(&r, &portion, room);
-    } while (more && !portion.trouble.status);
-    check_end(r, &portion.trouble);
-    MUST(record_report_trouble(reader, &portion) == portion.trouble.status);
-    record_portion_free(&portion);
+        more = record_read(reader, &chunk, q->capacity);
+        MUST(chunk.first == given && chunk.count <= q->capacity);
+        MUST(more == (chunk.count > 0 || chunk.error.status != GRAZE_OK));
+        check_numbers(&r, &chunk, room);
+    } while (more && !chunk.error.status);
+    check_end(r, &chunk.error);
+    MUST(record_report_error(reader, &chunk) == chunk.error.status);
+    record_chunk_free(&chunk);
     record_reader_close(reader);
     free(room);
 }

@@ -123,15 +123,15 @@ static void directories_that_refuse(void **state) {
     write_bytes(path_in(file, directory, "file"), "x", 1);
     for (int f = 0; f < FORMATS; f++) {
         snprintf(inside, sizeof inside, "%s/none/%s", directory, each_format[f]);
-        EXPECT_FAILURE(&c, GRAZE_SYSTEM_ERROR, "cannot be created: No such file",
+        EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "cannot be created: No such file",
                        image_write(picture, inside, &c.report));
         snprintf(inside, sizeof inside, "%s/file/%s", directory, each_format[f]);
-        EXPECT_FAILURE(&c, GRAZE_SYSTEM_ERROR, "cannot be created: Not a directory",
+        EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "cannot be created: Not a directory",
                        image_write(picture, inside, &c.report));
         /* A directory stands where the picture is to be. */
         path_in(below, directory, each_format[f]);
         assert_int_equal(mkdir(below, 0777), 0);
-        EXPECT_FAILURE(&c, GRAZE_SYSTEM_ERROR, "Is a directory", image_write(picture, below, &c.report));
+        EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "Is a directory", image_write(picture, below, &c.report));
         assert_int_equal(rmdir(below), 0);
     }
     unlink(file);
@@ -257,9 +257,9 @@ static void files_that_cannot_be_read(void **state) {
     make_directory(directory);
     char path[PATH_MAX + 64];
     path_in(path, directory, "none.hdr");
-    EXPECT_FAILURE(&c, GRAZE_SYSTEM_ERROR, "none.hdr: cannot be opened: No such file",
+    EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "none.hdr: cannot be opened: No such file",
                    image_read(&picture, path, &c.report));
-    EXPECT_FAILURE(&c, GRAZE_SYSTEM_ERROR, "Is a directory", image_read(&picture, directory, &c.report));
+    EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "Is a directory", image_read(&picture, directory, &c.report));
     write_bytes(path_in(path, directory, "empty.png"), "", 0);
     EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "empty.png: the file is empty", image_read(&picture, path, &c.report));
     unlink(path);

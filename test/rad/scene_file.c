@@ -246,12 +246,12 @@ static void rejects_what_is_no_text(void **state) {
     }
 }
 
-static void unreadable_scenes_are_system_errors(void **state) {
+static void names_of_no_scenes_are_input_errors(void **state) {
     (void)state;
     messages m;
-    assert_int_equal(read_bad("missing.rad", &m), GRAZE_SYSTEM_ERROR);
+    assert_int_equal(read_bad("missing.rad", &m), GRAZE_INPUT_ERROR);
     assert_contains(m.text, "missing.rad");
-    assert_int_equal(read_bad(".", &m), GRAZE_SYSTEM_ERROR);
+    assert_int_equal(read_bad(".", &m), GRAZE_INPUT_ERROR);
 }
 
 static void warns_of_nothing(void **state) {
@@ -438,7 +438,7 @@ int main(void) {
         cmocka_unit_test(goes_on_after_errors),
         cmocka_unit_test(stops_after_twenty_errors),
         cmocka_unit_test(rejects_what_is_no_text),
-        cmocka_unit_test(unreadable_scenes_are_system_errors),
+        cmocka_unit_test(names_of_no_scenes_are_input_errors),
         cmocka_unit_test(warns_of_nothing),
         cmocka_unit_test(several_files_are_one_scene),
         cmocka_unit_test(runs_commands),

@@ -198,8 +198,8 @@ static void view_files(void **state) {
 
     messages m;
     graze_report report = messages_report(&m);
-    assert_int_equal(rad_view_read(&v, "missing.vf", &report), GRAZE_SYSTEM_ERROR);
-    assert_int_equal(rad_view_read(&v, ".", &report), GRAZE_SYSTEM_ERROR);
+    assert_int_equal(rad_view_read(&v, "missing.vf", &report), GRAZE_INPUT_ERROR);
+    assert_int_equal(rad_view_read(&v, ".", &report), GRAZE_INPUT_ERROR);
     write_file("no.vf", "VIEW= nothing\n\nVIEW= -vp 1 1 1\n");
     assert_int_equal(rad_view_read(&v, "no.vf", &report), GRAZE_INPUT_ERROR);
     assert_contains(m.text, "no view in no.vf");

@@ -190,7 +190,7 @@ static void finds_files_from_files(void **state) {
     rad_scene_destroy(scene);
     messages m;
     write_file("scene.rad", "!xform ./found.rad\n");
-    assert_int_equal(read_bad("scene.rad", &m), GRAZE_SYSTEM_ERROR);
+    assert_int_equal(read_bad("scene.rad", &m), GRAZE_INPUT_ERROR);
     assert_contains(m.text, "scene.rad:1:1: xform: cannot find file \"./found.rad\"");
     unsetenv("RAYPATH");
 }

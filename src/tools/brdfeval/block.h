@@ -24,10 +24,10 @@ typedef struct block_float {
 } block_float;
 
 /* Takes up to BLOCK_RECORDS records. Directions whose length is off by more than 1e-6 are normalised. Stops before a
- * record that cannot be answered, and says why in `trouble` (of RECORD_TROUBLE_SIZE). */
-void block_double_take(block_double *, const evaluation *, const double *records, size_t count, char *trouble);
+ * record that cannot be answered, and says why in `message` (of RECORD_MESSAGE_SIZE). */
+void block_double_take(block_double *, const evaluation *, const double *records, size_t count, char *message);
 /* The same for floats; not for records of angles. */
-void block_float_take(block_float *, const evaluation *, const float *records, size_t count, char *trouble);
+void block_float_take(block_float *, const evaluation *, const float *records, size_t count, char *message);
 
 /* Sets a direction of one record, as `take` does. */
 void block_double_set_direction(block_double *, int which, size_t index, graze_vec3 direction);

@@ -17,15 +17,25 @@
 
 #include "tools/brdfeval/block_real.h"
 
-static void take_angles(block_double *b, const evaluation *e, const double *records) {
+static bool take_record_of_angles(block_double *b, const evaluation *e, const double *record, size_t i, char *message) {
     const query *q = e->query;
-    for (size_t i = 0; i < b->count; i++) {
-        for (int k = 0; k < q->directions; k++, records += 2)
-            block_double_set_direction(
-                b, k, i, direction_from_angles(direction_angle_of(records[0]), direction_angle_of(records[1])));
-        for (int k = 0; k < q->random_numbers; k++)
-            b->input[3 * q->directions + k][i] = *records++;
+    for (int k = 0; k < q->directions; k++, record += 2) {
+        if (!validate_angles(record[0], record[1], e, k, message))
+            return false;
+        block_double_set_direction(b, k, i,
+                                   direction_from_angles(direction_angle_of(record[0]), direction_angle_of(record[1])));
     }
+    for (int k = 0; k < q->random_numbers; k++)
+        b->input[3 * q->directions + k][i] = record[k];
+    return true;
+}
+
+/* Ends the block before the first record that has an angle out of range. */
+static void take_angles(block_double *b, const evaluation *e, const double *records, char *message) {
+    size_t fields = (size_t)evaluation_record_fields(e), i = 0;
+    while (i < b->count && take_record_of_angles(b, e, records + fields * i, i, message))
+        i++;
+    b->count = i;
 }
 
 void block_double_set_direction(block_double *b, int which, size_t index, vec3 direction) {
@@ -34,12 +44,12 @@ void block_double_set_direction(block_double *b, int which, size_t index, vec3 d
     b->input[3 * which + 2][index] = direction.z;
 }
 
-void block_double_take(block_double *b, const evaluation *e, const double *records, size_t count, char *trouble) {
+void block_double_take(block_double *b, const evaluation *e, const double *records, size_t count, char *message) {
     b->count = count;
     if (e->angles)
-        take_angles(b, e, records);
+        take_angles(b, e, records, message);
     else
         transpose(b, records, (size_t)evaluation_record_fields(e), 0);
-    if (!are_fine(b, e->query))
-        mend(b, e, trouble);
+    if (!are_valid(b, e->query))
+        repair(b, e, message);
 }

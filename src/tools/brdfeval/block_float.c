@@ -48,10 +48,10 @@ static size_t transpose_six(float input[][BLOCK_RECORDS], const float *records, 
 
 #include "tools/brdfeval/block_real.h"
 
-void block_float_take(block_float *b, const evaluation *e, const float *records, size_t count, char *trouble) {
+void block_float_take(block_float *b, const evaluation *e, const float *records, size_t count, char *message) {
     size_t columns = (size_t)evaluation_record_fields(e);
     b->count = count;
     transpose(b, records, columns, columns == 6 ? transpose_six(b->input, records, count) : 0);
-    if (!are_fine(b, e->query))
-        mend(b, e, trouble);
+    if (!are_valid(b, e->query))
+        repair(b, e, message);
 }

@@ -4,23 +4,29 @@
 #include <stddef.h>
 #include <string.h>
 
+/* An albedo takes as long as a hundred values. */
+enum { CHUNK_RECORDS = 4096, CHUNK_ALBEDOS = 16 };
+
 static const answer_field eval_fields[] = {
-    {'f', "f", 0, SCALING_VALUE},  {'c', "c", 0, SCALING_COSINE}, {'p', "p", 1, SCALING_PLAIN},
-    {'w', "w", 2, SCALING_WEIGHT}, {'P', "P", 3, SCALING_PLAIN},  {'W', "W", 4, SCALING_WEIGHT},
+    {'f', "f", RESULT_VALUE, SCALING_VALUE},        {'c', "c", RESULT_VALUE, SCALING_COSINE},
+    {'p', "p", RESULT_WARD_DENSITY, SCALING_PLAIN}, {'w', "w", RESULT_WARD_WEIGHT, SCALING_WEIGHT},
+    {'P', "P", RESULT_PAIR_DENSITY, SCALING_PLAIN}, {'W', "W", RESULT_PAIR_WEIGHT, SCALING_WEIGHT},
 };
 static const answer_field sample_fields[] = {
-    {'x', "lx", 0, SCALING_PLAIN}, {'y', "ly", 1, SCALING_PLAIN}, {'z', "lz", 2, SCALING_PLAIN},
-    {'p', "p", 3, SCALING_PLAIN},  {'w', "w", 4, SCALING_WEIGHT},
+    {'x', "lx", RESULT_X, SCALING_PLAIN},      {'y', "ly", RESULT_Y, SCALING_PLAIN},
+    {'z', "lz", RESULT_Z, SCALING_PLAIN},      {'p', "p", RESULT_DENSITY, SCALING_PLAIN},
+    {'w', "w", RESULT_WEIGHT, SCALING_WEIGHT},
 };
 static const answer_field pair_fields[] = {
-    {'x', "lx", 0, SCALING_PLAIN}, {'y', "ly", 1, SCALING_PLAIN}, {'z', "lz", 2, SCALING_PLAIN},
-    {'P', "P", 3, SCALING_PLAIN},  {'W', "W", 4, SCALING_WEIGHT},
+    {'x', "lx", RESULT_X, SCALING_PLAIN},      {'y', "ly", RESULT_Y, SCALING_PLAIN},
+    {'z', "lz", RESULT_Z, SCALING_PLAIN},      {'P', "P", RESULT_DENSITY, SCALING_PLAIN},
+    {'W', "W", RESULT_WEIGHT, SCALING_WEIGHT},
 };
 static const answer_field albedo_fields[] = {
-    {'a', "a", 0, SCALING_ALBEDO},
-    {'A', "A", 1, SCALING_PLAIN},
+    {'a', "a", RESULT_ALBEDO, SCALING_ALBEDO},
+    {'A', "A", RESULT_ACCEPTANCE, SCALING_PLAIN},
 };
-static const answer_field mean_fields[] = {{'m', "m", 0, SCALING_MEAN}};
+static const answer_field mean_fields[] = {{'m', "m", RESULT_MEAN_ALBEDO, SCALING_MEAN}};
 
 static const query queries[] = {
     {"eval", QUERY_EVAL, 2, 0, "fcpwPW", "f", eval_fields},
@@ -43,6 +49,11 @@ int evaluation_channels(const evaluation *e, const answer_field *field) {
 
 int evaluation_record_fields(const evaluation *e) {
     return (e->angles ? 2 : 3) * e->query->directions + e->query->random_numbers;
+}
+
+int evaluation_chunk_records(const evaluation *e, int flush) {
+    int records = e->query->kind == QUERY_ALBEDO ? CHUNK_ALBEDOS : CHUNK_RECORDS;
+    return flush > 0 && flush < records ? flush : records;
 }
 
 void evaluation_set_fields(evaluation *e, const char *letters) {

@@ -12,10 +12,17 @@ enum { INPUTS_MAX = 6, RESULTS_MAX = 5, LETTERS_MAX = 64, NUMBERS_MAX = 3 * LETT
 
 /* diffuse[i]/pi + specular[i] f, with one channel, or with three: red, green and blue. */
 typedef struct reflectance {
+    bool has_lobe; /* else all `specular` are 0 */
     graze_brdf lobe;
     int channels;
     double diffuse[3], specular[3];
 } reflectance;
+
+/* What a block computes: of eval, of sample and pair, of albedo, and of mean. */
+enum { RESULT_VALUE, RESULT_WARD_DENSITY, RESULT_WARD_WEIGHT, RESULT_PAIR_DENSITY, RESULT_PAIR_WEIGHT };
+enum { RESULT_X, RESULT_Y, RESULT_Z, RESULT_DENSITY, RESULT_WEIGHT };
+enum { RESULT_ALBEDO, RESULT_ACCEPTANCE };
+enum { RESULT_MEAN_ALBEDO };
 
 typedef enum query_kind { QUERY_EVAL, QUERY_SAMPLE, QUERY_PAIR, QUERY_ALBEDO, QUERY_MEAN } query_kind;
 
@@ -33,7 +40,7 @@ typedef enum scaling {
 typedef struct answer_field {
     char letter;
     const char *name; /* in tables */
-    int result;       /* index of what the block computes */
+    int result;       /* RESULT_... */
     scaling scaling;
 } answer_field;
 
@@ -65,5 +72,9 @@ void evaluation_set_fields(evaluation *, const char *letters);
 /* How many numbers the field has, and how many a record in. */
 int evaluation_channels(const evaluation *, const answer_field *);
 int evaluation_record_fields(const evaluation *);
+
+/* How many records, or rows of a table, are a chunk: what a thread answers at a time. `flush`: no more than this; 0: as
+ * is best. */
+int evaluation_chunk_records(const evaluation *, int flush);
 
 #endif

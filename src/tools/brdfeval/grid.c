@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "base/report.h"
 #include "base/text.h"
+#include "tools/brdfeval/validate.h"
 
 /* More points would not be counted exactly in a double. */
 #define COUNT_MAX 9007199254740992.0
@@ -31,18 +32,19 @@ typedef struct reading {
 
 double grid_axis_value(const grid_axis *a, uint64_t index) {
     double i = (double)index, last = (double)(a->count - 1);
+    bool is_last = index > 0 && index + 1 == a->count;
     switch (a->kind) {
     case AXIS_MIDPOINTS:
         return (i + .5) / (double)a->count;
     case AXIS_STEPS:
-        return (a->from + i * a->step) / a->scale;
+        return is_last && a->meets ? a->to : (a->from + i * a->step) / a->scale;
     case AXIS_ENDS:
         break;
     }
     if (index == 0)
         return a->from;
     /* Symmetric, as a grid from -x to x should be. */
-    return index + 1 == a->count ? a->to : (a->from * (last - i) + a->to * i) / last;
+    return is_last ? a->to : (a->from * (last - i) + a->to * i) / last;
 }
 
 static graze_status complain(const reading *r, const char *text) {
@@ -124,13 +126,14 @@ static void scale_decimals(grid_axis *axis) {
         double last = from + step * (double)(axis->count - 1);
         if (from / scale != axis->from || step / scale != axis->step || !(fabs(from) + fabs(last) < COUNT_MAX))
             continue;
-        if (axis->kind == AXIS_STEPS || last / scale == axis->to)
-            *axis = (grid_axis){axis->input, axis->count, AXIS_STEPS, from, axis->to, step, scale};
+        axis->from = from;
+        axis->step = step;
+        axis->scale = scale;
         return;
     }
 }
 
-/* An end that the steps meet but for rounding errors belongs to the values, and is met exactly. */
+/* An end that the steps meet but for rounding errors belongs to the values, as it is given. */
 static graze_status read_steps(reading *r, grid_axis *axis) {
     if (!read_number(r, &axis->step) || r->next != r->end)
         return complain_of_form(r);
@@ -140,9 +143,8 @@ static graze_status read_steps(reading *r, grid_axis *axis) {
     if (!(steps < COUNT_MAX))
         return complain(r, "too many steps");
     double rounding = 1e-15 * ((fabs(axis->from) + fabs(axis->to)) / fabs(axis->step) + steps);
-    bool meets = fabs(steps - whole) <= rounding;
-    axis->kind = meets ? AXIS_ENDS : AXIS_STEPS;
-    axis->count = (uint64_t)(meets ? whole : floor(steps)) + 1;
+    axis->meets = fabs(steps - whole) <= rounding;
+    axis->count = (uint64_t)(axis->meets ? whole : floor(steps)) + 1;
     scale_decimals(axis);
     return GRAZE_OK;
 }
@@ -171,7 +173,7 @@ static graze_status check_range(const reading *r, const grid_axis *axis) {
     if (is_random_number(r, axis)) {
         if (!(fmin(first, last) >= 0 && fmax(first, last) < 1))
             return complain(r, "random numbers have to be at least 0 and less than 1");
-    } else if (!(fabs(first) <= 360 && fabs(last) <= 360)) {
+    } else if (!(fabs(first) <= VALIDATE_ANGLE_MAX && fabs(last) <= VALIDATE_ANGLE_MAX)) {
         return complain(r, "angles have to be between -360 and 360 degrees");
     }
     return GRAZE_OK;

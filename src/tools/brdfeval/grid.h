@@ -2,6 +2,7 @@
 #ifndef TOOLS_BRDFEVAL_GRID_H
 #define TOOLS_BRDFEVAL_GRID_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "graze/error.h"
@@ -13,7 +14,8 @@ typedef struct grid_axis {
     uint64_t count;
     enum { AXIS_STEPS, AXIS_ENDS, AXIS_MIDPOINTS } kind;
     double from, to;    /* ENDS: `count` values, both ends included */
-    double step, scale; /* STEPS: from + i step, where both are `scale` times what they stand for */
+    double step, scale; /* STEPS: from + i step, where both are `scale` times what they stand for, */
+    bool meets;         /* and, if they meet it, `to`, which is not scaled, as the last value */
 } grid_axis;
 
 /* Inputs in order: theta and phi of each direction in degrees, then the query's random numbers. Those without an axis

@@ -10,9 +10,6 @@
 #include "tools/brdfeval/block.h"
 #include "tools/common/record_filter.h"
 
-/* Records that go through the pipeline together: an albedo takes as long as a hundred values. */
-enum { PORTION_RECORDS = 4096, PORTION_ALBEDOS = 16 };
-
 /* A worker's memory. */
 typedef struct workspace {
     union {
@@ -32,26 +29,21 @@ typedef struct run {
     off_t begin, end; /* of the input, for the progress line */
 } run;
 
-int records_portion(const query *q, int flush) {
-    int portion = q->kind == QUERY_ALBEDO ? PORTION_ALBEDOS : PORTION_RECORDS;
-    return flush > 0 && flush < portion ? flush : portion;
-}
-
 static size_t answer_doubles(const run *r, const double *records, size_t count, workspace *w, record_buffer *out,
-                             char *trouble) {
+                             char *message) {
     const evaluation *e = r->job->evaluation;
     block_double *b = &w->block.doubles;
-    block_double_take(b, e, records, count, trouble);
+    block_double_take(b, e, records, count, message);
     block_double_answer(b, e, w->numbers.doubles);
     record_append_records(out, r->job->out, 17, w->numbers.doubles, b->count, e->numbers);
     return b->count;
 }
 
 static size_t answer_floats(const run *r, const float *records, size_t count, workspace *w, record_buffer *out,
-                            char *trouble) {
+                            char *message) {
     const evaluation *e = r->job->evaluation;
     block_float *b = &w->block.floats;
-    block_float_take(b, e, records, count, trouble);
+    block_float_take(b, e, records, count, message);
     block_float_answer(b, e, w->numbers.floats);
     record_append_bytes(out, w->numbers.floats, b->count * (size_t)e->numbers * sizeof(float));
     return b->count;
@@ -63,17 +55,17 @@ static void show_progress(const run *r) {
         progress_update(r->progress, (double)(at - r->begin) / (double)(r->end - r->begin), NULL);
 }
 
-static size_t answer_portion(void *user, const record_block *portion, int worker, record_buffer *out, char *trouble) {
+static size_t answer_chunk(void *user, const record_numbers *records, int worker, record_buffer *out, char *message) {
     const run *r = user;
     workspace *w = &r->workspaces[worker];
     size_t fields = (size_t)evaluation_record_fields(r->job->evaluation), done = 0, count, answered;
     show_progress(r);
     do {
-        count = portion->count - done < BLOCK_RECORDS ? portion->count - done : BLOCK_RECORDS;
-        answered = portion->floats ? answer_floats(r, portion->floats + fields * done, count, w, out, trouble)
-                                   : answer_doubles(r, portion->values + fields * done, count, w, out, trouble);
+        count = records->count - done < BLOCK_RECORDS ? records->count - done : BLOCK_RECORDS;
+        answered = records->floats ? answer_floats(r, records->floats + fields * done, count, w, out, message)
+                                   : answer_doubles(r, records->doubles + fields * done, count, w, out, message);
         done += answered;
-    } while (answered == count && done < portion->count);
+    } while (answered == count && done < records->count);
     return done;
 }
 
@@ -95,11 +87,11 @@ static bool computes_in_floats(const records_job *j) {
 static graze_status run_filter(run *r, const graze_report *report) {
     const records_job *j = r->job;
     record_filter filter = {.fields = evaluation_record_fields(j->evaluation),
-                            .chunk_records = records_portion(j->evaluation->query, j->flush),
+                            .chunk_records = evaluation_chunk_records(j->evaluation, j->flush),
                             .floats = computes_in_floats(j),
                             .threads = j->threads,
                             .user = r,
-                            .answer = answer_portion};
+                            .answer = answer_chunk};
     uint64_t count;
     graze_status status =
         record_reader_open(&filter.reader, STDIN_FILENO, "standard input", j->in, filter.fields, report);

@@ -18,7 +18,4 @@ graze_status records_answer(const records_job *, const graze_report *);
 /* The one answer of a query without input. */
 graze_status records_answer_once(const records_job *, const graze_report *);
 
-/* How many records should go through together. */
-int records_portion(const query *, int flush);
-
 #endif

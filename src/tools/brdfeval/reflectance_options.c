@@ -23,17 +23,21 @@ static graze_status find_model(const char *name, graze_brdf_model *model, const 
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
+static graze_status report_expected(const reflectance_parameter *p, const char *name, const char *got,
+                                    const graze_report *report) {
+    char low[NUMBER_TEXT_SIZE], high[NUMBER_TEXT_SIZE];
+    number_print_exact(low, p->low);
+    number_print_exact(high, p->high);
+    return report_error(report, NULL, "%s: expected a %s from %s to %s, got '%s'", name, p->what, low, high, got);
+}
+
 /* As read_parameter; `name` is the option's. */
 static graze_status read_number(reflectance_parameter *p, const char *name, const char *suffix, int count,
                                 const char *const *words, int *used, const graze_report *report) {
-    bool roughness = name[1] == 'a';
-    double low = roughness ? GRAZE_ROUGHNESS_MIN : 0, high = roughness ? GRAZE_ROUGHNESS_MAX : 1;
     if (*suffix)
         return report_error(report, NULL, "unknown option '%s%s' (brdfeval --help lists all)", name, suffix);
-    if (count < 1 || !text_to_real(words[0], &p->value) || !(p->value >= low && p->value <= high))
-        return report_error(report, NULL, "%s: expected a %s, got '%s'", name,
-                            roughness ? "roughness from 1e-6 to 10" : "reflectance from 0 to 1",
-                            count < 1 ? "nothing" : words[0]);
+    if (count < 1 || !text_to_real(words[0], &p->value) || !(p->value >= p->low && p->value <= p->high))
+        return report_expected(p, name, count < 1 ? "nothing" : words[0], report);
     p->given = name;
     *used = 1;
     return GRAZE_OK;
@@ -80,19 +84,14 @@ static graze_status read_material(void *target, const char *suffix, int count, c
     return GRAZE_OK;
 }
 
-void reflectance_print_words(FILE *out, int count, const char *const words[]) {
-    char text[8192];
-    for (int i = 0; i < count; i++) {
-        char *word = (char *)words[i];
-        options_command_line(text, sizeof text, 1, &word);
-        fprintf(out, "%s%s", i ? " " : "", text);
-    }
-}
-
 static void print_material(void *target, FILE *out) {
     const reflectance_options *o = target;
-    if (o->material_file)
-        reflectance_print_words(out, 3, (const char *const[]){"-M", o->material_file, o->material_name});
+    if (!o->material_file)
+        return;
+    fputs("-M ", out);
+    options_print_word(out, o->material_file);
+    putc(' ', out);
+    options_print_word(out, o->material_name);
 }
 
 /* --- All --------------------------------------------------------------------------------------------------------- */
@@ -100,7 +99,12 @@ static void print_material(void *target, FILE *out) {
 void reflectance_options_begin(reflectance_options *o, option table[REFLECTANCE_OPTION_COUNT]) {
     *o = (reflectance_options){
         .model = model_names[GRAZE_BRDF_GMD],
-        .parameters = {{"-ax", .1, NULL, o}, {"-ay", .1, NULL, o}, {"-rs", 1, NULL, o}, {"-rd", 0, NULL, o}}};
+        .parameters = {
+            [ALPHA_X] = {"-ax", "roughness", GRAZE_ROUGHNESS_MIN, GRAZE_ROUGHNESS_MAX, .1, NULL, o},
+            [ALPHA_Y] = {"-ay", "roughness", GRAZE_ROUGHNESS_MIN, GRAZE_ROUGHNESS_MAX, .1, NULL, o},
+            [SPECULAR] = {"-rs", "reflectance", 0, 1, 1, NULL, o},
+            [DIFFUSE] = {"-rd", "reflectance", 0, 1, 0, NULL, o},
+        }};
     reflectance_parameter *p = o->parameters;
     const option entries[REFLECTANCE_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "Reflectance", 0, 0, NULL, NULL},
@@ -135,6 +139,7 @@ graze_status reflectance_options_read(const reflectance_options *o, bool input_t
         status = check_material(o, input_taken, report);
         return status == GRAZE_OK ? scene_material_read(r, o->material_file, o->material_name, report) : status;
     }
+    r->has_lobe = true;
     r->lobe.alpha_x = p[ALPHA_X].value;
     r->lobe.alpha_y = p[ALPHA_Y].value;
     r->channels = 1;

@@ -9,7 +9,8 @@ typedef struct reflectance_options reflectance_options;
 
 /* A number that a material would set, too. */
 typedef struct reflectance_parameter {
-    const char *name;
+    const char *name, *what;
+    double low, high; /* its range, ends included */
     double value;
     const char *given; /* the option that set it; null: none did */
     const reflectance_options *options;
@@ -31,8 +32,5 @@ void reflectance_options_begin(reflectance_options *, option table[REFLECTANCE_O
 /* What they say. `input_taken`: standard input can be no scene. */
 graze_status reflectance_options_read(const reflectance_options *, bool input_taken, reflectance *,
                                       const graze_report *);
-
-/* Prints words as options, quoted where they have to be, for -defaults. */
-void reflectance_print_words(FILE *, int count, const char *const words[]);
 
 #endif

@@ -82,6 +82,7 @@ static graze_status take_material(reflectance *r, graze_material material, const
         return rad_primitive_error(report, p, "is a mirror: with a roughness this small it has no value to evaluate");
     if (illegal)
         rad_primitive_warning(report, p, "its orientation vector is null: it is then isotropic");
+    r->has_lobe = surface.specular_lobe == GRAZE_LOBE_GLOSSY;
     r->lobe = surface.lobe;
     r->channels = 3;
     take_colour(r->diffuse, surface.diffuse);

@@ -10,7 +10,6 @@
 #include "base/progress.h"
 #include "tools/brdfeval/block.h"
 #include "tools/brdfeval/direction.h"
-#include "tools/brdfeval/records.h"
 #include "tools/brdfeval/table_text.h"
 
 /* A worker's memory. */
@@ -179,13 +178,11 @@ static graze_status write_header(const table_job *j, const graze_report *report)
     return status;
 }
 
-static graze_status write_rows(run *r, chunk *chunks, void **places, int chunk_count) {
-    for (int i = 0; i < chunk_count; i++)
-        places[i] = &chunks[i];
+static graze_status write_rows(run *r, chunk *chunks, int chunk_count) {
     graze_status status = write_header(r->job, r->report);
     /* A progress line would mix with a table on the same terminal. */
     r->progress = progress_start("tabulating", !isatty(STDOUT_FILENO));
-    const pipeline p = {r->job->threads, places, chunk_count, r, begin_chunk, fill_chunk, write_chunk};
+    const pipeline p = {r->job->threads, chunks, sizeof *chunks, chunk_count, r, begin_chunk, fill_chunk, write_chunk};
     if (status == GRAZE_OK)
         status = pipeline_run(&p, r->report);
     progress_finish(r->progress);
@@ -193,17 +190,14 @@ static graze_status write_rows(run *r, chunk *chunks, void **places, int chunk_c
 }
 
 graze_status table_write(const table_job *j, const graze_report *report) {
-    int chunk_count = 3 * j->threads;
+    int chunk_count = pipeline_chunk_count(j->threads);
     chunk *chunks = calloc((size_t)chunk_count, sizeof *chunks);
-    void **places = calloc((size_t)chunk_count, sizeof *places);
-    run r = {.job = j, .chunk_rows = (size_t)records_portion(j->evaluation->query, j->flush), .report = report};
+    run r = {.job = j, .chunk_rows = (size_t)evaluation_chunk_records(j->evaluation, j->flush), .report = report};
     r.workspaces = aligned_alloc(_Alignof(workspace), (size_t)j->threads * sizeof *r.workspaces);
-    graze_status status =
-        chunks && places && r.workspaces ? write_rows(&r, chunks, places, chunk_count) : report_out_of_memory(report);
+    graze_status status = chunks && r.workspaces ? write_rows(&r, chunks, chunk_count) : report_out_of_memory(report);
     for (int i = 0; i < chunk_count && chunks; i++)
         record_buffer_free(&chunks[i].output);
     free(r.workspaces);
-    free(places);
     free(chunks);
     return status;
 }

@@ -30,17 +30,9 @@ void table_append_csv_header(record_buffer *out, const evaluation *e, const grid
     record_append_text(out, "\n");
 }
 
-static bool is_big_endian(void) {
-    const union {
-        unsigned short number;
-        unsigned char first;
-    } order = {1};
-    return order.first == 0;
-}
-
 static void append_npy_name(record_buffer *out, int index, const char *name) {
     char text[64];
-    snprintf(text, sizeof text, "%s('%s', '%cf8')", index ? ", " : "", name, is_big_endian() ? '>' : '<');
+    snprintf(text, sizeof text, "%s('%s', '%cf8')", index ? ", " : "", name, record_is_big_endian() ? '>' : '<');
     record_append_text(out, text);
 }
 

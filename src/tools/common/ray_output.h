@@ -1,6 +1,6 @@
 /* What gtrace prints for a ray: rtrace's -o letters. */
-#ifndef TOOLS_RAY_OUTPUT_H
-#define TOOLS_RAY_OUTPUT_H
+#ifndef TOOLS_COMMON_RAY_OUTPUT_H
+#define TOOLS_COMMON_RAY_OUTPUT_H
 
 #include <stdbool.h>
 

@@ -7,18 +7,18 @@
 #include "base/parallel.h"
 
 typedef struct chunk {
-    record_portion portion;
-    record_buffer output;
+    record_chunk records;
+    record_buffer answers;
 } chunk;
 
 typedef struct run {
     const record_filter *filter;
-    double **values; /* for each worker: the numbers of its block */
+    double *room; /* for each worker: the numbers of a chunk, converted */
     uint64_t read, answered;
     const graze_report *report;
 } run;
 
-static size_t room(const run *r) {
+static size_t capacity(const run *r) {
     size_t chunk_records = (size_t)r->filter->chunk_records;
     uint64_t left = r->filter->wanted ? r->filter->wanted - r->read : chunk_records;
     return left < chunk_records ? (size_t)left : chunk_records;
@@ -27,60 +27,58 @@ static size_t room(const run *r) {
 static graze_status read_chunk(void *user, void *memory, bool *more) {
     run *r = user;
     chunk *c = memory;
-    size_t capacity = room(r);
-    *more = capacity > 0 && record_read(r->filter->reader, &c->portion, capacity);
-    r->read += *more ? c->portion.count : 0;
+    size_t most = capacity(r);
+    *more = most > 0 && record_read(r->filter->reader, &c->records, most);
+    r->read += *more ? c->records.count : 0;
     return GRAZE_OK;
 }
 
-/* Whatever is wrong becomes the chunk's trouble, and is reported when its turn comes to be written: only then is it
- * known that nothing before it is wrong. */
+static size_t chunk_numbers(const record_filter *f) {
+    return (size_t)f->chunk_records * (size_t)f->fields;
+}
+
+static void answer_records(const run *r, chunk *c, int worker) {
+    const record_filter *f = r->filter;
+    record_numbers numbers = {.first = c->records.first};
+    char message[RECORD_MESSAGE_SIZE] = "";
+    if (f->floats)
+        numbers.floats = record_floats(&c->records);
+    else
+        numbers.doubles = record_doubles(&c->records, r->room + (size_t)worker * chunk_numbers(f));
+    numbers.count = c->records.count;
+    size_t answered = numbers.count ? f->answer(f->user, &numbers, worker, &c->answers, message) : 0;
+    if (answered < numbers.count)
+        record_set_error(&c->records, answered, message);
+}
+
+/* Whatever is wrong becomes the chunk's error, and is reported when its turn comes to be written: only then is it known
+ * that nothing before it is wrong. */
 static void answer_chunk(void *user, void *memory, int worker) {
     const run *r = user;
-    const record_filter *f = r->filter;
     chunk *c = memory;
-    record_portion *p = &c->portion;
-    if (p->count > 0) {
-        record_block block = {.first = p->first};
-        if (f->floats)
-            block.floats = record_floats(p);
-        else
-            block.values = record_doubles(p, r->values[worker]);
-        block.count = p->count;
-        char trouble[RECORD_TROUBLE_SIZE] = "";
-        size_t answered = block.count ? f->answer(f->user, &block, worker, &c->output, trouble) : 0;
-        if (answered < block.count)
-            record_set_trouble(p, answered, trouble);
-    }
-    if (p->trouble.status)
-        record_reader_cancel(f->reader);
+    if (c->records.count > 0)
+        answer_records(r, c, worker);
+    if (c->records.error.status)
+        record_reader_cancel(r->filter->reader);
 }
 
 static graze_status write_chunk(void *user, void *memory) {
     run *r = user;
     const record_filter *f = r->filter;
     chunk *c = memory;
-    graze_status status = record_buffer_write(&c->output, STDOUT_FILENO, "standard output", r->report);
+    graze_status status = record_buffer_write(&c->answers, STDOUT_FILENO, "standard output", r->report);
     if (status == GRAZE_OK) {
-        r->answered += c->portion.count;
-        status = record_report_trouble(f->reader, &c->portion);
+        r->answered += c->records.count;
+        status = record_report_error(f->reader, &c->records);
     }
     if (status)
         record_reader_cancel(f->reader);
     return status;
 }
 
-static graze_status run_pipeline(run *r, chunk *chunks, void **places, int chunk_count) {
+static graze_status run_pipeline(run *r, chunk *chunks, int chunk_count) {
     const record_filter *f = r->filter;
-    size_t numbers = (size_t)f->chunk_records * (size_t)f->fields;
-    for (int i = 0; i < chunk_count; i++)
-        places[i] = &chunks[i];
-    for (int i = 0; i < f->threads && !f->floats; i++) {
-        r->values[i] = malloc(numbers * sizeof *r->values[i]);
-        if (!r->values[i])
-            return report_out_of_memory(r->report);
-    }
-    const pipeline p = {f->threads, places, chunk_count, r, read_chunk, answer_chunk, write_chunk};
+    const pipeline p = {f->threads, chunks, sizeof *chunks, chunk_count, r, read_chunk, answer_chunk, write_chunk};
     graze_status status = pipeline_run(&p, r->report);
     if (status == GRAZE_OK && r->answered < f->wanted)
         status = report_error(r->report, NULL, "standard input ended after %llu of %llu records",
@@ -89,21 +87,18 @@ static graze_status run_pipeline(run *r, chunk *chunks, void **places, int chunk
 }
 
 graze_status record_filter_run(const record_filter *f, uint64_t *count, const graze_report *report) {
-    int chunk_count = 3 * f->threads;
+    int chunk_count = pipeline_chunk_count(f->threads);
     chunk *chunks = calloc((size_t)chunk_count, sizeof *chunks);
-    void **places = calloc((size_t)chunk_count, sizeof *places);
-    double **values = calloc((size_t)f->threads, sizeof *values);
-    run r = {.filter = f, .values = values, .report = report};
+    run r = {.filter = f, .report = report};
+    if (!f->floats)
+        r.room = malloc((size_t)f->threads * chunk_numbers(f) * sizeof *r.room);
     graze_status status =
-        chunks && places && values ? run_pipeline(&r, chunks, places, chunk_count) : report_out_of_memory(report);
+        chunks && (r.room || f->floats) ? run_pipeline(&r, chunks, chunk_count) : report_out_of_memory(report);
     for (int i = 0; i < chunk_count && chunks; i++) {
-        record_portion_free(&chunks[i].portion);
-        record_buffer_free(&chunks[i].output);
+        record_chunk_free(&chunks[i].records);
+        record_buffer_free(&chunks[i].answers);
     }
-    for (int i = 0; i < f->threads && values; i++)
-        free(values[i]);
-    free(values);
-    free(places);
+    free(r.room);
     free(chunks);
     *count = r.answered;
     return status;

@@ -3,14 +3,6 @@
 
 #include <stdio.h>
 
-static int is_big_endian(void) {
-    const union {
-        unsigned short number;
-        unsigned char first;
-    } order = {1};
-    return order.first == 0;
-}
-
 static const char *format_name(char format) {
     switch (format) {
     case 'f':
@@ -32,7 +24,7 @@ void record_header_append(record_buffer *out, const tool_arguments *arguments, i
     snprintf(line, sizeof line, "\nSOFTWARE= Graze " GRAZE_VERSION "\nNCOMP=%d\n", numbers);
     record_append_text(out, line);
     if (format == 'f' || format == 'd') {
-        snprintf(line, sizeof line, "BigEndian=%d\n", is_big_endian());
+        snprintf(line, sizeof line, "BigEndian=%d\n", record_is_big_endian());
         record_append_text(out, line);
     }
     snprintf(line, sizeof line, "FORMAT=%s\n\n", format_name(format));

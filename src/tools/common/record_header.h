@@ -1,6 +1,6 @@
 /* The header that Radiance's tools expect before records. */
-#ifndef TOOLS_RECORD_HEADER_H
-#define TOOLS_RECORD_HEADER_H
+#ifndef TOOLS_COMMON_RECORD_HEADER_H
+#define TOOLS_COMMON_RECORD_HEADER_H
 
 #include "base/records.h"
 #include "tools/common/tool.h"

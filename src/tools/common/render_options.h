@@ -1,6 +1,6 @@
 /* The options that gtrace and gpict share: how light is traced. */
-#ifndef TOOLS_RENDER_OPTIONS_H
-#define TOOLS_RENDER_OPTIONS_H
+#ifndef TOOLS_COMMON_RENDER_OPTIONS_H
+#define TOOLS_COMMON_RENDER_OPTIONS_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 /* What every tool's main does. */
-#ifndef TOOLS_TOOL_H
-#define TOOLS_TOOL_H
+#ifndef TOOLS_COMMON_TOOL_H
+#define TOOLS_COMMON_TOOL_H
 
 #include "base/options.h"
 
