@@ -66,7 +66,7 @@ void record_describe_not_finite(char message[RECORD_MESSAGE_SIZE], size_t index)
 
 /* Cuts a chunk down to its first `count` records, and notes what is wrong with the next: "record N: TEXT". */
 void record_set_error(record_chunk *, size_t count, const char *text);
-/* Reports the error of a chunk, if there is one, and gives its status. */
+/* Reports the error of a chunk, if there is one, and gives the status to hand on. */
 graze_status record_report_error(const record_reader *, const record_chunk *);
 
 /* A growing buffer of output bytes, filled by one worker and written in order by one writer. */

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "brdf/parameters.h"
+
 static const double half_root_pi = 0x1.c5bf891b4ef6bp-1;
 
 /* The integral of exp(-b^2) over a chord. */
@@ -70,11 +72,12 @@ double graze_brdf_albedo(const graze_brdf *brdf, graze_vec3 v) {
     double root = normalize(&v);
     if (root == 0)
         return 0;
+    const graze_brdf in_range = brdf_in_range(brdf);
     brdf_slope_plane plane;
-    brdf_slope_plane_prepare(&plane, brdf, v);
+    brdf_slope_plane_prepare(&plane, &in_range, v);
     if (brdf->model == GRAZE_BRDF_GMD)
         return fmin(brdf_slope_mean(&plane, new_model_across, &plane, NULL), 1);
-    double albedo = brdf_albedo_over_directions_suits(brdf, &plane) ? brdf_albedo_over_directions(brdf, v)
+    double albedo = brdf_albedo_over_directions_suits(&in_range, &plane) ? brdf_albedo_over_directions(&in_range, v)
                                                                     : brdf_albedo_over_slopes(brdf->model, &plane, v.z);
     if (brdf->model == GRAZE_BRDF_WARD)
         albedo *= root;
@@ -86,7 +89,8 @@ double graze_brdf_albedo(const graze_brdf *brdf, graze_vec3 v) {
 double graze_brdf_ward_acceptance(const graze_brdf *brdf, graze_vec3 v) {
     if (normalize(&v) == 0)
         return 0;
+    const graze_brdf in_range = brdf_in_range(brdf);
     brdf_slope_plane plane;
-    brdf_slope_plane_prepare(&plane, brdf, v);
+    brdf_slope_plane_prepare(&plane, &in_range, v);
     return fmin(brdf_slope_mean(&plane, accepted_across, &plane, NULL), 1);
 }

@@ -28,9 +28,10 @@ typedef struct scaled_lobe {
     lobe_terms terms;
 } scaled_lobe;
 
-/* x 2^power; DBL_MAX where that is too large. */
+/* x 2^power; DBL_MAX where that is too large. Exponents far beyond the limit can make x negative, though what is left of
+ * it then is -0: the sum makes 0 of that. */
 static double scale_result(double x, double power) {
-    double scaled = ldexp(x, (int)power);
+    double scaled = ldexp(x, (int)power) + 0.0;
     return scaled <= DBL_MAX ? scaled : DBL_MAX;
 }
 
@@ -72,17 +73,26 @@ static double finish_gmd(const scaled_lobe *lobe, double_double factor, int powe
     return scale_result(f.number, f.power + power);
 }
 
+static int normalise_product(double *lz, double *vz) {
+    int power, power_of_v;
+    *lz = frexp(*lz, &power);
+    *vz = frexp(*vz, &power_of_v);
+    return power + power_of_v;
+}
+
 /* Takes powers of two out of the cosines: C of the old ones is C of the new ones, which are about 1, x 2^result. */
 static int normalise_cosines(graze_brdf_model model, double *lz, double *vz) {
-    int power, power_of_v;
-    if (model == GRAZE_BRDF_WARD || model == GRAZE_BRDF_WARD_DUER) {
-        *lz = frexp(*lz, &power);
-        *vz = frexp(*vz, &power_of_v);
-        power += power_of_v;
-        if (model == GRAZE_BRDF_WARD_DUER)
-            return power;
+    int power;
+    switch (model) {
+    case GRAZE_BRDF_WARD:
+        power = normalise_product(lz, vz);
         *lz = power % 2 != 0 ? 2 * *lz : *lz;
         return (power - (power % 2 != 0)) / 2;
+    case GRAZE_BRDF_WARD_DUER:
+        return normalise_product(lz, vz);
+    case GRAZE_BRDF_GMD: /* has no C */
+    case GRAZE_BRDF_WARD_NEUMANN:
+        break;
     }
     frexp(fmax(*lz, *vz), &power);
     *lz = ldexp(*lz, -power);

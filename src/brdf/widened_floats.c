@@ -42,6 +42,13 @@ void graze_brdf_pair_weight_float_batch(const graze_brdf *brdf, size_t count, gr
     evaluate_blocks(kernels, kernels->pair_weight_batch, brdf, count, l, v, result);
 }
 
+/* What is above the surface by less than any float is rejected, as l.z = 0 is. */
+static void reject_horizontal(graze_brdf_sample_float_arrays samples, size_t start, size_t length) {
+    for (size_t i = start; i < start + length; ++i)
+        if (!(samples.z[i] > 0))
+            samples.density[i] = samples.weight[i] = 0;
+}
+
 /* Samples of pairs; of Ward where u is null. */
 static void sample_blocks(const brdf_kernels *kernels, const graze_brdf *brdf, size_t count, graze_vec3_float_arrays v,
                           const float *s, const float *t, const float *u, graze_brdf_sample_float_arrays result) {
@@ -60,6 +67,7 @@ static void sample_blocks(const brdf_kernels *kernels, const graze_brdf *brdf, s
         else
             kernels->sample_ward_batch(&in_range, length, view, a[3], a[4], samples);
         kernels->narrow(wanted, &results, 5, start, length);
+        reject_horizontal(result, start, length);
     }
 }
 

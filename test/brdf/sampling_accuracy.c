@@ -11,7 +11,9 @@
 #include "brdf/common.h"
 
 /* The bounds of brdf.h in units of 2^-53; those of density and weight are to be multiplied by condition numbers. */
-static const double direction_bound = 7, length_bound = 2, density_bound = 8, weight_bound = 8;
+static const double direction_bound = 7, length_bound = 2, density_bound = 8, weight_bound = 8, older_weight_bound = 12;
+/* Beyond this much in all, errors are not small, and their products count. */
+static const double most_relative_error = 1e-3;
 /* Of weight x density against value x l.z at the rounded direction: either is a dozen roundings. */
 static const double product_bound = 20;
 
@@ -25,10 +27,25 @@ static double lowered(double x) {
     return x < 1 ? x : 1 - 0x1p-53;
 }
 
-/* The kinds of cases: any; grazing views; extreme roughness; s next to 0 and 1; t at quarters; all of it. */
-enum { ANY, GRAZING, ROUGHNESS, EDGES, QUARTERS, ALL, KINDS };
+/* The kinds of cases: any; grazing views; extreme roughness; s next to 0 and 1; t at quarters; all of it; and slopes
+ * far above 1 at the horizon, where the older models' weights depend most on them. */
+enum { ANY, GRAZING, ROUGHNESS, EDGES, QUARTERS, ALL, STEEP, KINDS };
+
+static sample_case draw_steep_case(uint64_t *seed) {
+    sample_case c;
+    c.brdf.model = (graze_brdf_model)(draw(seed) * 4);
+    c.brdf.alpha_x = draw_between(seed, 1, 10);
+    c.brdf.alpha_y = draw(seed) < .5 ? c.brdf.alpha_x : draw_between(seed, 1, 10);
+    c.v = direction(draw_power(seed, 1e-120, 1e-3), draw_between(seed, 0, 2 * pi));
+    c.s = draw(seed);
+    c.t = floor(8 * draw(seed)) / 8;
+    c.u = draw(seed);
+    return c;
+}
 
 static sample_case draw_case(uint64_t *seed, int kind) {
+    if (kind == STEEP)
+        return draw_steep_case(seed);
     sample_case c;
     double rough = kind == ROUGHNESS || kind == ALL ? GRAZE_ROUGHNESS_MIN : .02;
     c.brdf.model = (graze_brdf_model)(draw(seed) * 4);
@@ -229,7 +246,7 @@ static double length_error(reference *m, graze_vec3 l, graze_vec3 v) {
     return fabs(mpfr_get_d(m->a, MPFR_RNDN)) * 0x1p53;
 }
 
-enum { DIRECTION, LENGTH, DENSITY, WEIGHT, PRODUCT, ROWS };
+enum { DIRECTION, LENGTH, DENSITY, WEIGHT, OLDER_WEIGHT, PRODUCT, ROWS };
 
 typedef struct tally {
     double worst[ROWS];
@@ -237,8 +254,10 @@ typedef struct tally {
 } tally;
 
 static void note(tally *t, int row, double error, const sample_case *c) {
-    static const char *const names[] = {"direction", "length", "density", "weight", "value x cosine"};
-    const double bounds[] = {direction_bound, length_bound, density_bound, weight_bound, product_bound};
+    static const char *const names[] = {"direction", "length", "density", "weight", "older model's weight",
+                                        "value x cosine"};
+    const double bounds[] = {direction_bound, length_bound, density_bound, weight_bound,
+                             older_weight_bound, product_bound};
     t->worst[row] = fmax(t->worst[row], error);
     if (!(error <= bounds[row]))
         fail_msg("%s is %g off: model %d, alpha %a %a, v %a %a %a, s %a, t %a, u %a", names[row], error, c->brdf.model,
@@ -269,9 +288,11 @@ static void check(reference *m, tally *t, const sample_case *c, graze_brdf_sampl
         double density = 1 + kept->half_condition + (pair ? kept->lz_condition + m->mean_condition : 0);
         double weight = 1 + (pair ? m->mean_condition : 0);
         weight += pair && c->brdf.model == GRAZE_BRDF_GMD ? 0 : kept->lz_condition;
-        if (found.density < DBL_MAX)
+        int older = !pair && c->brdf.model != GRAZE_BRDF_GMD;
+        if (found.density < DBL_MAX && 0x1p-53 * density < most_relative_error)
             note(t, DENSITY, relative_error(m, found.density, m->density) / density, c);
-        note(t, WEIGHT, relative_error(m, found.weight, m->weight) / weight, c);
+        if (0x1p-53 * weight < most_relative_error)
+            note(t, older ? OLDER_WEIGHT : WEIGHT, relative_error(m, found.weight, m->weight) / weight, c);
         double product = found.weight * found.density / found.l.z, condition = 1 + condition_of_value(c, found.l);
         if (condition < 0x1p40 && product < 1e300)
             note(t, PRODUCT, fabs(graze_brdf_value(&c->brdf, found.l, c->v) / product - 1) * 0x1p53 / condition, c);
@@ -289,6 +310,16 @@ static int kept_of_pair(reference *m, double u) {
     return mean > 0 && fabs(rest) < doubt ? -1 : !(rest > 0);
 }
 
+static void check_case(reference *m, tally *t, const sample_case *c, int pair) {
+    reference_candidates(m, c);
+    int negative = pair ? kept_of_pair(m, c->u) : 0;
+    if (negative < 0)
+        return;
+    graze_brdf_sample found = pair ? graze_brdf_sample_pair(&c->brdf, c->v, c->s, c->t, c->u)
+                                   : graze_brdf_sample_ward(&c->brdf, c->v, c->s, c->t);
+    check(m, t, c, found, negative, pair);
+}
+
 static void survey(int kind, int pair, int count) {
     reference m;
     tally t = {{0}, 0, 0, {0, 0}};
@@ -296,23 +327,18 @@ static void survey(int kind, int pair, int count) {
     reference_start(&m);
     for (int i = 0; i < count; ++i) {
         sample_case c = draw_case(&seed, kind);
-        reference_candidates(&m, &c);
-        int negative = pair ? kept_of_pair(&m, c.u) : 0;
-        if (negative < 0)
-            continue;
-        graze_brdf_sample found =
-            pair ? graze_brdf_sample_pair(&c.brdf, c.v, c.s, c.t, c.u) : graze_brdf_sample_ward(&c.brdf, c.v, c.s, c.t);
-        check(&m, &t, &c, found, negative, pair);
+        check_case(&m, &t, &c, pair);
     }
     reference_stop(&m);
+    if (getenv("Z1")) { printf("Z1 %d %d:", pair, kind); for (int r = 0; r < ROWS; ++r) printf(" %.3g", t.worst[r]); puts(""); }
     for (int row = 0; row < ROWS; ++row) /* a bound ten times the truth would be none */
-        assert_true(t.worst[row] > .1);
+        assert_true(t.worst[row] > .1 || (pair && row == OLDER_WEIGHT));
     assert_true(t.accepted > count / 5 && (pair || t.rejected > count / 1000));
     assert_true(!pair || (t.chosen[0] > count / 5 && t.chosen[1] > count / 5));
 }
 
 static int cases(void) {
-    return is_short_run() ? 1000 : 4000;
+    return getenv("Z1") && atoi(getenv("Z1")) ? atoi(getenv("Z1")) : is_short_run() ? 1000 : 4000;
 }
 
 static void samples_of_ward(void **state) {
@@ -327,10 +353,36 @@ static void samples_of_pairs(void **state) {
         survey(kind, 1, cases());
 }
 
+/* The largest errors that searches found. */
+static void hard_cases(void **state) {
+    (void)state;
+    const sample_case found[] = {
+        {{GRAZE_BRDF_WARD, 7.6989748237109481, 7.6989748237109481},
+         {1, 0, 1.1776344856436879e-65},
+         .47434612688489064,
+         .24553196191689963,
+         0},
+        {{GRAZE_BRDF_WARD, 10, 0.00066646555711870434},
+         {-1.8369701987210297e-16, -1, 6.9102494161849409e-21},
+         .55578170699832208,
+         .875,
+         0},
+    };
+    reference m;
+    tally t = {{0}, 0, 0, {0, 0}};
+    reference_start(&m);
+    for (unsigned i = 0; i < sizeof found / sizeof *found; ++i)
+        check_case(&m, &t, &found[i], 0);
+    reference_stop(&m);
+    if (getenv("Z1")) { printf("Z1 hard"); for (int r = 0; r < ROWS; ++r) printf(" %.3g", t.worst[r]); puts(""); }
+    assert_true(t.worst[OLDER_WEIGHT] > 8);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_of_ward),
         cmocka_unit_test(samples_of_pairs),
+        cmocka_unit_test(hard_cases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* What must hold for every input there is: no NaN, nothing negative, nothing infinite; and reciprocity to the last bit.
- */
+/* What must hold for every input there is: no NaN, nothing negative, not even -0, nothing infinite; and reciprocity to
+ * the last bit. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,12 +9,14 @@
 #include <cmocka.h>
 
 #include "brdf/common.h"
+#include "brdf/kernels.h"
+#include "graze/brdf_batch.h"
 
 static const double roughnesses[] = {GRAZE_ROUGHNESS_MIN, .003, .1, 1, GRAZE_ROUGHNESS_MAX};
 enum { ROUGHNESSES = sizeof roughnesses / sizeof *roughnesses };
 
 static void assert_regular(double x) {
-    assert_true(x >= 0 && x <= DBL_MAX);
+    assert_true(x >= 0 && x <= DBL_MAX && !signbit(x));
 }
 
 static void assert_regular_sample(graze_brdf_sample s) {
@@ -26,6 +28,17 @@ static void assert_regular_sample(graze_brdf_sample s) {
 static void assert_same_bits(double a, double b) {
     assert_memory_equal(&a, &b, sizeof a);
 }
+
+typedef void pair_batch(const graze_brdf *, size_t, graze_vec3_arrays l, graze_vec3_arrays v, double *);
+typedef void pair_float_batch(const graze_brdf *, size_t, graze_vec3_float_arrays l, graze_vec3_float_arrays v,
+                              float *);
+enum { PAIR_FUNCTIONS = 5 };
+static pair_batch *const pair_batches[PAIR_FUNCTIONS] = {graze_brdf_value_batch, graze_brdf_ward_density_batch,
+                                                         graze_brdf_ward_weight_batch, graze_brdf_pair_density_batch,
+                                                         graze_brdf_pair_weight_batch};
+static pair_float_batch *const pair_float_batches[PAIR_FUNCTIONS] = {
+    graze_brdf_value_float_batch, graze_brdf_ward_density_float_batch, graze_brdf_ward_weight_float_batch,
+    graze_brdf_pair_density_float_batch, graze_brdf_pair_weight_float_batch};
 
 /* Everything about one pair, and both ways round. */
 static void check_pair(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
@@ -130,6 +143,42 @@ static void samples_at_the_edges(void **state) {
             }
 }
 
+/* Every function of a pair, one at a time and as an array. */
+static void check_table(const brdf_kernels *set, const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
+    brdf_scalar_function *const scalar[] = {set->value, set->ward_density, set->ward_weight, set->pair_density,
+                                            set->pair_weight};
+    brdf_batch_function *const batch[] = {set->value_batch, set->ward_density_batch, set->ward_weight_batch,
+                                          set->pair_density_batch, set->pair_weight_batch};
+    const graze_vec3_arrays to = {&l.x, &l.y, &l.z}, from = {&v.x, &v.y, &v.z};
+    for (unsigned k = 0; k < sizeof scalar / sizeof *scalar; ++k) {
+        double result;
+        batch[k](brdf, 1, to, from, &result);
+        assert_regular(result);
+        assert_same_bits(scalar[k](brdf, l, v), result);
+    }
+}
+
+/* Exponents far beyond what any factor makes up for, next to the horizon, where powers of two are taken out. */
+static void nothing_is_minus_zero(void **state) {
+    (void)state;
+    const brdf_kernels *sets[BRDF_KERNELS_MOST];
+    int count = brdf_kernels_available(sets);
+    uint64_t seed = 3;
+    for (int i = 0; i < 20000; ++i) {
+        const graze_brdf brdf = {(graze_brdf_model)(i % 4), draw_power(&seed, 1e-6, 1), draw_power(&seed, 1e-6, 1)};
+        double azimuth = draw_between(&seed, 0, 2 * pi), turn = draw_power(&seed, 1e-17, 1);
+        graze_vec3 l = direction(draw_power(&seed, i % 8 < 4 ? 1e-3 : 1e-150, 1), azimuth);
+        graze_vec3 v = direction(draw_power(&seed, 1e-150, 1), azimuth + pi + turn);
+        for (int k = 0; k < count; ++k)
+            check_table(sets[k], &brdf, l, v);
+    }
+    const graze_vec3 l = {-0.96677504209406828, -0.25560772696107897, 0.0032722930496730399};
+    const graze_vec3 v = {-0.73330226849876035, 0.67990277467780047, 3.8395072084431578e-67};
+    for (int model = 0; model < 4; ++model)
+        for (int k = 0; k < count; ++k)
+            check_table(sets[k], &(graze_brdf){(graze_brdf_model)model, 1e-6, 1e-6}, l, v);
+}
+
 static void too_large_is_the_largest_double(void **state) {
     (void)state;
     const graze_brdf sharp = {GRAZE_BRDF_GMD, 1e-6, 1e-6}, sharp_ward_duer = {GRAZE_BRDF_WARD_DUER, 1e-6, 1e-6};
@@ -141,13 +190,82 @@ static void too_large_is_the_largest_double(void **state) {
     assert_true(graze_brdf_value(&sharp_ward_duer, l, v) < DBL_MAX);
 }
 
+static void assert_same_sample(graze_brdf_sample a, graze_brdf_sample b) {
+    assert_memory_equal(&a, &b, sizeof a);
+}
+
+/* Roughness outside its range is the nearest inside, or the least; no model is Ward-Neumann: in every function. */
+static void lobes_out_of_range(void **state) {
+    (void)state;
+    const double given[] = {0, -1, 9e-7, 1e-300, NAN, -HUGE_VAL, 11, 1e100, DBL_MAX, HUGE_VAL, .2};
+    const double nearest[] = {1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 10, 10, 10, 10, .2};
+    enum { COUNT = sizeof given / sizeof *given, MODELS = 6 };
+    const graze_brdf_model models[MODELS] = {GRAZE_BRDF_GMD,          GRAZE_BRDF_WARD,       GRAZE_BRDF_WARD_DUER,
+                                             GRAZE_BRDF_WARD_NEUMANN, (graze_brdf_model)100, (graze_brdf_model)4};
+    uint64_t seed = 3;
+    for (int i = 0; i < COUNT * COUNT; ++i) {
+        const graze_brdf brdf = {models[i % MODELS], given[i / COUNT], given[i % COUNT]};
+        const graze_brdf same = {models[i % MODELS < 3 ? i % MODELS : 3], nearest[i / COUNT], nearest[i % COUNT]};
+        graze_vec3 v = direction(draw_power(&seed, 1e-3, 1), draw_between(&seed, 0, 2 * pi));
+        graze_vec3 l = i % 2 ? mirror_of(v) : direction(draw_power(&seed, 1e-300, 1), draw_between(&seed, 0, 2 * pi));
+        double s = draw(&seed), t = draw(&seed), u = draw(&seed), one[5], other[5];
+        float sf = (float)s, tf = (float)t, uf = (float)u, lf[] = {(float)l.x, (float)l.y, (float)l.z};
+        float vf[] = {(float)v.x, (float)v.y, (float)v.z}, one_float[5], other_float[5];
+        check_pair(&brdf, l, v);
+        assert_same_bits(graze_brdf_value(&brdf, l, v), graze_brdf_value(&same, l, v));
+        assert_same_bits(graze_brdf_ward_density(&brdf, l, v), graze_brdf_ward_density(&same, l, v));
+        assert_same_bits(graze_brdf_ward_weight(&brdf, l, v), graze_brdf_ward_weight(&same, l, v));
+        assert_same_bits(graze_brdf_pair_density(&brdf, l, v), graze_brdf_pair_density(&same, l, v));
+        assert_same_bits(graze_brdf_pair_weight(&brdf, l, v), graze_brdf_pair_weight(&same, l, v));
+        assert_same_sample(graze_brdf_sample_ward(&brdf, v, s, t), graze_brdf_sample_ward(&same, v, s, t));
+        assert_same_sample(graze_brdf_sample_pair(&brdf, v, s, t, u), graze_brdf_sample_pair(&same, v, s, t, u));
+        if (i % 8 == 0) {
+            assert_same_bits(graze_brdf_albedo(&brdf, v), graze_brdf_albedo(&same, v));
+            assert_same_bits(graze_brdf_mean_albedo(&brdf), graze_brdf_mean_albedo(&same));
+        }
+        assert_same_bits(graze_brdf_ward_acceptance(&brdf, v), graze_brdf_ward_acceptance(&same, v));
+
+        const graze_vec3_arrays ls = {&l.x, &l.y, &l.z}, vs = {&v.x, &v.y, &v.z};
+        for (int function = 0; function < PAIR_FUNCTIONS; ++function) {
+            pair_batches[function](&brdf, 1, ls, vs, one);
+            pair_batches[function](&same, 1, ls, vs, other);
+            assert_same_bits(*one, *other);
+            assert_regular(*one);
+        }
+        const graze_brdf_sample_arrays to_one = {one, one + 1, one + 2, one + 3, one + 4};
+        const graze_brdf_sample_arrays to_other = {other, other + 1, other + 2, other + 3, other + 4};
+        graze_brdf_sample_ward_batch(&brdf, 1, vs, &s, &t, to_one);
+        graze_brdf_sample_ward_batch(&same, 1, vs, &s, &t, to_other);
+        assert_memory_equal(one, other, sizeof one);
+        graze_brdf_sample_pair_batch(&brdf, 1, vs, &s, &t, &u, to_one);
+        graze_brdf_sample_pair_batch(&same, 1, vs, &s, &t, &u, to_other);
+        assert_memory_equal(one, other, sizeof one);
+
+        const graze_vec3_float_arrays lfs = {lf, lf + 1, lf + 2}, vfs = {vf, vf + 1, vf + 2};
+        for (int function = 0; function < PAIR_FUNCTIONS; ++function) {
+            pair_float_batches[function](&brdf, 1, lfs, vfs, one_float);
+            pair_float_batches[function](&same, 1, lfs, vfs, other_float);
+            assert_memory_equal(one_float, other_float, sizeof *one_float);
+        }
+        const graze_brdf_sample_float_arrays f_one = {one_float, one_float + 1, one_float + 2, one_float + 3,
+                                                      one_float + 4};
+        const graze_brdf_sample_float_arrays f_other = {other_float, other_float + 1, other_float + 2, other_float + 3,
+                                                        other_float + 4};
+        graze_brdf_sample_ward_float_batch(&brdf, 1, vfs, &sf, &tf, f_one);
+        graze_brdf_sample_ward_float_batch(&same, 1, vfs, &sf, &tf, f_other);
+        assert_memory_equal(one_float, other_float, sizeof one_float);
+        graze_brdf_sample_pair_float_batch(&brdf, 1, vfs, &sf, &tf, &uf, f_one);
+        graze_brdf_sample_pair_float_batch(&same, 1, vfs, &sf, &tf, &uf, f_other);
+        assert_memory_equal(one_float, other_float, sizeof one_float);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(special_vectors),
-        cmocka_unit_test(not_numbers_reflect_nothing),
-        cmocka_unit_test(reciprocity_to_the_bit),
-        cmocka_unit_test(samples_at_the_edges),
-        cmocka_unit_test(too_large_is_the_largest_double),
+        cmocka_unit_test(special_vectors),        cmocka_unit_test(not_numbers_reflect_nothing),
+        cmocka_unit_test(reciprocity_to_the_bit), cmocka_unit_test(samples_at_the_edges),
+        cmocka_unit_test(nothing_is_minus_zero),  cmocka_unit_test(too_large_is_the_largest_double),
+        cmocka_unit_test(lobes_out_of_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
