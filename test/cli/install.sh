@@ -72,7 +72,7 @@ make_quietly() { "${MAKE:-make}" --no-print-directory "$@" PREFIX=$prefix DESTDI
 
 check "make install" make_quietly install
 installed_files >"$work/files"
-check "everything is where it belongs" has bin/gtrace bin/gpict bin/brdfeval lib/libgraze.a lib/libgraze.so \
+check "everything is where it belongs" has bin/gtrace bin/gpict bin/brdfeval bin/brdffit lib/libgraze.a lib/libgraze.so \
     lib/libgraze.so.0 lib/pkgconfig/graze.pc lib/graze/oiio.so include/graze/graze.h share/doc/graze/LICENSE
 for tool in "$BIN"/*; do
     check "$(basename "$tool") has a manual page" has "share/man/man1/$(basename "$tool").1"
