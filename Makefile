@@ -243,7 +243,7 @@ coverage:
 	@BUILD=$(COVERAGE) GRAZE_SHORT=1 test/run test/brdf/*.c
 	@scripts/coverage $(COVERAGE)/obj/brdf
 
-# mutation: changes every number and operator of src/brdf, one at a time: a test must notice; in a quarter of an hour
+# mutation: changes every number in src/brdf, one at a time: a test must notice; in a quarter of an hour
 mutation:
 	@scripts/install-dependencies build test
 	@CC='$(CC)' scripts/mutation $(MUTATE)

@@ -15,8 +15,8 @@
  *   the weights                                          0.501   0.501
  *
  * Arrays hold one component each. Output arrays must not overlap any other array. Directions, domains, meaning and
- * errors are those of brdf.h; samples in float are those in double for the floats given, rounded, and rejected where that
- * makes l.z 0. No function here can fail, allocates, or keeps state. */
+ * errors are those of brdf.h; samples in float are those in double for the floats given, rounded, and rejected where
+ * that makes l.z 0. No function here can fail, allocates, or keeps state. */
 #ifndef GRAZE_BRDF_BATCH_H
 #define GRAZE_BRDF_BATCH_H
 

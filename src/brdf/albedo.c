@@ -77,8 +77,9 @@ double graze_brdf_albedo(const graze_brdf *brdf, graze_vec3 v) {
     brdf_slope_plane_prepare(&plane, &in_range, v);
     if (brdf->model == GRAZE_BRDF_GMD)
         return fmin(brdf_slope_mean(&plane, new_model_across, &plane, NULL), 1);
-    double albedo = brdf_albedo_over_directions_suits(&in_range, &plane) ? brdf_albedo_over_directions(&in_range, v)
-                                                                    : brdf_albedo_over_slopes(brdf->model, &plane, v.z);
+    double albedo = brdf_albedo_over_directions_suits(&in_range, &plane)
+                        ? brdf_albedo_over_directions(&in_range, v)
+                        : brdf_albedo_over_slopes(in_range.model, &plane, v.z);
     if (brdf->model == GRAZE_BRDF_WARD)
         albedo *= root;
     if (brdf->model == GRAZE_BRDF_WARD_DUER)

@@ -52,8 +52,7 @@ BRDF_INLINE double float_factor(graze_brdf_model model, const float_lobe *k, dou
         return k->quarter / sqrt(lz * vz);
     case GRAZE_BRDF_WARD_DUER: /* (5) */
         return k->quarter / (lz * vz);
-    case GRAZE_BRDF_WARD_NEUMANN:
-        break;
+    case GRAZE_BRDF_WARD_NEUMANN:; /* and what is no model */
     }
     return k->quarter / (lz > vz ? lz : vz);
 }

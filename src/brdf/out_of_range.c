@@ -28,8 +28,8 @@ typedef struct scaled_lobe {
     lobe_terms terms;
 } scaled_lobe;
 
-/* x 2^power; DBL_MAX where that is too large. Exponents far beyond the limit can make x negative, though what is left of
- * it then is -0: the sum makes 0 of that. */
+/* x 2^power; DBL_MAX where that is too large. Exponents far beyond the limit can make x negative, though what is left
+ * of it then is -0: the sum makes 0 of that. */
 static double scale_result(double x, double power) {
     double scaled = ldexp(x, (int)power) + 0.0;
     return scaled <= DBL_MAX ? scaled : DBL_MAX;

@@ -17,12 +17,26 @@ BRDF_INLINE double roughness_in_range(double alpha) {
     return alpha < GRAZE_ROUGHNESS_MAX ? alpha : GRAZE_ROUGHNESS_MAX;
 }
 
+/* Of the roughness alone. */
 BRDF_INLINE bool brdf_is_in_range(const graze_brdf *brdf) {
     return roughness_is_in_range(brdf->alpha_x) && roughness_is_in_range(brdf->alpha_y);
 }
 
+/* What is no model is Ward-Neumann; so it is in all switches of this folder. */
+BRDF_INLINE graze_brdf_model model_in_range(graze_brdf_model model) {
+    switch (model) {
+    case GRAZE_BRDF_GMD:
+    case GRAZE_BRDF_WARD:
+    case GRAZE_BRDF_WARD_DUER:
+    case GRAZE_BRDF_WARD_NEUMANN:
+        return model;
+    }
+    return GRAZE_BRDF_WARD_NEUMANN;
+}
+
 BRDF_INLINE graze_brdf brdf_in_range(const graze_brdf *brdf) {
-    return (graze_brdf){brdf->model, roughness_in_range(brdf->alpha_x), roughness_in_range(brdf->alpha_y)};
+    return (graze_brdf){model_in_range(brdf->model), roughness_in_range(brdf->alpha_x),
+                        roughness_in_range(brdf->alpha_y)};
 }
 
 /* Numbers outside [0,1) become the nearest number inside, what is no number 0. */

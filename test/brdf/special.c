@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "brdf/albedo.h"
 #include "brdf/common.h"
 #include "brdf/kernels.h"
 #include "graze/brdf_batch.h"
@@ -260,12 +261,52 @@ static void lobes_out_of_range(void **state) {
     }
 }
 
+/* Below the entry points, too: no function of a table, nor an albedo's, is at a loss for what is no model. */
+static void no_model_is_ward_neumann_everywhere(void **state) {
+    (void)state;
+    const graze_brdf brdf = {(graze_brdf_model)4, .2, .3}, same = {GRAZE_BRDF_WARD_NEUMANN, .2, .3};
+    graze_vec3 l = from_degrees(50, 10), v = from_degrees(60, 170);
+    const graze_vec3_arrays ls = {&l.x, &l.y, &l.z}, vs = {&v.x, &v.y, &v.z};
+    float f[6] = {(float)l.x, (float)l.y, (float)l.z, (float)v.x, (float)v.y, (float)v.z}, one_float, other_float;
+    const graze_vec3_float_arrays lfs = {f, f + 1, f + 2}, vfs = {f + 3, f + 4, f + 5};
+    double s = .4, one[5], other[5];
+    const graze_brdf_sample_arrays to_one = {one, one + 1, one + 2, one + 3, one + 4};
+    const graze_brdf_sample_arrays to_other = {other, other + 1, other + 2, other + 3, other + 4};
+    const brdf_kernels *tables[BRDF_KERNELS_MOST];
+    for (int i = 0, count = brdf_kernels_available(tables); i < count; ++i) {
+        const brdf_kernels *k = tables[i];
+        brdf_scalar_function *const scalars[] = {k->value, k->ward_weight, k->pair_weight};
+        brdf_batch_function *const batches[] = {k->value_batch, k->ward_weight_batch, k->pair_weight_batch};
+        for (int function = 0; function < 3; ++function) {
+            assert_same_bits(scalars[function](&brdf, l, v), scalars[function](&same, l, v));
+            batches[function](&brdf, 1, ls, vs, one);
+            assert_same_bits(*one, scalars[function](&same, l, v));
+        }
+        k->value_float_batch(&brdf, 1, lfs, vfs, &one_float);
+        k->value_float_batch(&same, 1, lfs, vfs, &other_float);
+        assert_memory_equal(&one_float, &other_float, sizeof one_float);
+        assert_same_sample(k->sample_ward(&brdf, v, s, s), k->sample_ward(&same, v, s, s));
+        assert_same_sample(k->sample_pair(&brdf, v, s, s, s), k->sample_pair(&same, v, s, s, s));
+        k->sample_ward_batch(&brdf, 1, vs, &s, &s, to_one);
+        k->sample_ward_batch(&same, 1, vs, &s, &s, to_other);
+        assert_memory_equal(one, other, sizeof one);
+        k->sample_pair_batch(&brdf, 1, vs, &s, &s, &s, to_one);
+        k->sample_pair_batch(&same, 1, vs, &s, &s, &s, to_other);
+        assert_memory_equal(one, other, sizeof one);
+    }
+    brdf_slope_plane plane;
+    brdf_slope_plane_prepare(&plane, &brdf, v);
+    double albedo = graze_brdf_albedo(&same, v);
+    assert_true(fabs(brdf_albedo_over_slopes(brdf.model, &plane, v.z) - albedo) < 1e-6);
+    assert_true(fabs(brdf_albedo_over_directions(&brdf, v) - albedo) < 1e-9);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(special_vectors),        cmocka_unit_test(not_numbers_reflect_nothing),
         cmocka_unit_test(reciprocity_to_the_bit), cmocka_unit_test(samples_at_the_edges),
         cmocka_unit_test(nothing_is_minus_zero),  cmocka_unit_test(too_large_is_the_largest_double),
-        cmocka_unit_test(lobes_out_of_range),
+        cmocka_unit_test(lobes_out_of_range),     cmocka_unit_test(no_model_is_ward_neumann_everywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
