@@ -1,15 +1,15 @@
 /* The table of functions that exists once for each instruction set, and the choice of one.
  *
- * How values, densities, weights and samples are computed, from the public function to the arithmetic:
+ * How values, densities, weights and samples are computed, from the public function down to the arithmetic:
  *
- *   entry_points.c, widened_floats.c      the functions of brdf.h and brdf_batch.h: roughness brought into its range,
- * one call through the table. Float densities, weights and samples are those in double, a block at a time dispatch.c
- * which table this processor can run kernels_{baseline,avx2,avx512}.c      a table each: instruction_set.h, compiled
- * for that instruction set {pair,sample,float}_loops.h           one element or arrays of them, the model made a
- * constant by models.h; and float_conversion.h                    floats to doubles and back {pair,sample}_kernels.h
- * one element, without branches, from double_double.h and elementary.h out_of_range.c,                       pairs that
- * the kernels leave alone, one at a time: powers of two are taken out_of_range_mean_weight.c            out, and the
- * same arithmetic serves
+ * - entry_points.c: the functions of brdf.h and brdf_batch.h; roughness is brought into its range, then one call
+ *   through the table. Float densities, weights and samples are those in double, a block at a time (widened_floats.c).
+ * - dispatch.c: which table this processor can run.
+ * - kernels_{baseline,avx2,avx512}.c: a table each, instruction_set.h compiled for that instruction set.
+ * - {pair,sample,float}_loops.h: one element or arrays of them, the model made a constant by models.h.
+ * - {pair,sample}_kernels.h: one element, without branches, out of double_double.h and elementary.h.
+ * - out_of_range.c, out_of_range_mean_weight.c: the pairs that the kernels leave alone, one at a time; powers of two
+ *   are taken out, and the same arithmetic serves.
  *
  * Integrals (albedo*.c, mean_albedo.c) and the diffuse term (diffuse.c) are plain C and libm. */
 #ifndef BRDF_KERNELS_H

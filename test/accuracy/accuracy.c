@@ -25,9 +25,9 @@ static void merge_tally(accuracy_tally *sum, const accuracy_tally *t) {
     for (int row = 0; row < ROWS; ++row) {
         accuracy_keep_worst(&sum->worst[row], t->worst[row].ulps, t->worst[row].result, &t->worst[row].in);
         accuracy_keep_worst(&sum->naive[row], t->naive[row].ulps, t->naive[row].result, &t->naive[row].in);
-        sum->denormal[row] = fmax(sum->denormal[row], t->denormal[row]);
+        sum->tiny[row] = fmax(sum->tiny[row], t->tiny[row]);
         sum->results[row] += t->results[row];
-        sum->denormals[row] += t->denormals[row];
+        sum->tinies[row] += t->tinies[row];
         sum->naive_large[row] += t->naive_large[row];
     }
     sum->pairs += t->pairs;
@@ -94,6 +94,10 @@ static double bound_of(int format, int row) {
     return (format == DOUBLE ? accuracy_bound : accuracy_float_bound)[accuracy_rows[row].function];
 }
 
+static double tiny_bound_of(int format, int row) {
+    return (format == DOUBLE ? accuracy_tiny_bound : accuracy_tiny_float_bound)[accuracy_rows[row].function];
+}
+
 static void print_row(const char *name, double bound, const double *ulps) {
     printf("%-26s %5.3g ", name, bound);
     for (int kind = 0; kind < PAIR_KINDS; ++kind)
@@ -117,11 +121,11 @@ static void print_tables(const survey *s, int format) {
             ulps[kind] = s->tally[format][kind].worst[row].ulps;
         print_row(accuracy_rows[row].name, bound_of(format, row), ulps);
     }
-    print_heading("true values below the normal range, in the least number's units");
+    print_heading("tiny true values: below the normal range, and float values below 2^-124");
     for (int row = 0; row < ROWS; ++row) {
         for (int kind = 0; kind < PAIR_KINDS; ++kind)
-            ulps[kind] = s->tally[format][kind].denormal[row];
-        print_row(accuracy_rows[row].name, bound_of(format, row), ulps);
+            ulps[kind] = s->tally[format][kind].tiny[row];
+        print_row(accuracy_rows[row].name, tiny_bound_of(format, row), ulps);
     }
     if (format == FLOAT)
         return;
@@ -138,13 +142,13 @@ static void print_counts(const survey *s, int format) {
            "in normal range", "naive > 100 ulp", "promises broken");
     for (int kind = 0; kind < PAIR_KINDS; ++kind) {
         const accuracy_tally *t = &s->tally[format][kind];
-        long normal = 0, denormal = 0, naive = 0;
+        long normal = 0, tiny = 0, naive = 0;
         for (int row = 0; row < ROWS; ++row) {
             normal += t->results[row];
-            denormal += t->denormals[row];
+            tiny += t->tinies[row];
             naive += t->naive_large[row];
         }
-        printf("%c %-24s %10ld %10ld %14ld %15ld %ld\n", 'A' + kind, pair_kinds[kind].name, t->pairs, normal + denormal,
+        printf("%c %-24s %10ld %10ld %14ld %15ld %ld\n", 'A' + kind, pair_kinds[kind].name, t->pairs, normal + tiny,
                normal, naive, t->broken);
     }
 }

@@ -35,9 +35,11 @@ static const accuracy_row accuracy_rows[ROWS] = {
 
 /* What brdf.h and brdf_batch.h promise, in units in the last place, where the true value is a normal number. */
 static const double accuracy_bound[FUNCTIONS] = {1.8, 1.8, .51, 1.8, .51};
-static const double accuracy_float_bound[FUNCTIONS] = {2.9, .501, .501, .501, .501};
-/* In double nothing is promised below the normal numbers; but results there are rounded a second time and no worse. */
-static const double accuracy_denormal_bound[FUNCTIONS] = {1.8, 1.8, 1, 1.8, 1};
+static const double accuracy_float_bound[FUNCTIONS] = {2.95, .501, .501, .501, .501};
+/* Tiny numbers are those below the normal ones, and float values below 2^-124. In double nothing is promised of them;
+ * but they are rounded a second time and no worse. Float values below the normal ones may be 0. */
+static const double accuracy_tiny_bound[FUNCTIONS] = {1.8, 1.8, 1, 1.8, 1};
+static const double accuracy_tiny_float_bound[FUNCTIONS] = {3.31, .501, .501, .501, .501};
 
 /* The true number; it may be overwritten. */
 static inline mpfr_ptr accuracy_exact(reference_terms *r, const accuracy_row *row) {
@@ -113,10 +115,10 @@ typedef struct accuracy_worst {
 
 typedef struct accuracy_tally {
     accuracy_worst worst[ROWS], naive[ROWS];
-    double denormal[ROWS]; /* the largest error where the true number is below the normal ones */
-    long pairs, results[ROWS], denormals[ROWS], naive_large[ROWS]; /* more than 100 ulp off */
-    long broken;                                                   /* promises */
-    long unlike;                                                   /* batch results that are not the scalar's */
+    double tiny[ROWS];                                          /* the largest error of tiny numbers */
+    long pairs, results[ROWS], tinies[ROWS], naive_large[ROWS]; /* more than 100 ulp off */
+    long broken;                                                /* promises */
+    long unlike;                                                /* batch results that are not the scalar's */
     accuracy_worst first_unlike;
 } accuracy_tally;
 
@@ -126,28 +128,37 @@ static inline void accuracy_keep_worst(accuracy_worst *worst, double ulps, doubl
         *worst = (accuracy_worst){ulps, result, *in};
 }
 
+static inline bool accuracy_is_tiny(int row, const reference_format *format, mpfr_t exact) {
+    bool float_value = format == &reference_float && accuracy_rows[row].function == VALUE;
+    return !reference_is_normal(format, exact) || (float_value && mpfr_cmp_d(exact, 0x1p-124) < 0);
+}
+
+/* The exact number is overwritten. */
+static inline double accuracy_ulps(int row, const reference_format *format, mpfr_t exact, double result) {
+    bool may_be_0 = format == &reference_float && accuracy_rows[row].function == VALUE;
+    if (may_be_0 && result == 0 && !reference_is_normal(format, exact))
+        return 0;
+    return reference_ulps(format, result, exact);
+}
+
 /* Exact numbers are overwritten by the comparison, and they are compared twice. */
-static inline void accuracy_compare(accuracy_tally *t, int row, const reference_format *format, const double *bounds,
-                                    mpfr_t scratch, mpfr_t exact, double result, double naive,
-                                    const reference_case *in) {
-    bool normal = reference_is_normal(format, exact);
-    if (format == &reference_double) {
+static inline void accuracy_compare(accuracy_tally *t, int row, const reference_format *format, mpfr_t scratch,
+                                    mpfr_t exact, double result, double naive, const reference_case *in) {
+    bool in_double = format == &reference_double, tiny = accuracy_is_tiny(row, format, exact);
+    if (in_double && !tiny) {
         mpfr_set(scratch, exact, MPFR_RNDN);
         double error = reference_ulps(format, fmin(naive, DBL_MAX), scratch);
-        if (normal) {
-            accuracy_keep_worst(&t->naive[row], error, naive, in);
-            t->naive_large[row] += error > 100;
-        }
+        accuracy_keep_worst(&t->naive[row], error, naive, in);
+        t->naive_large[row] += error > 100;
     }
-    double ulps = reference_ulps(format, result, exact);
-    if (!normal && result == 0 && format == &reference_float && accuracy_rows[row].function == VALUE)
-        ulps = 0; /* as promised */
-    ++(normal ? t->results : t->denormals)[row];
-    if (normal)
-        accuracy_keep_worst(&t->worst[row], ulps, result, in);
+    double ulps = accuracy_ulps(row, format, exact, result);
+    ++(tiny ? t->tinies : t->results)[row];
+    if (tiny)
+        t->tiny[row] = fmax(t->tiny[row], ulps);
     else
-        t->denormal[row] = fmax(t->denormal[row], ulps);
-    bounds = normal || format == &reference_float ? bounds : accuracy_denormal_bound;
+        accuracy_keep_worst(&t->worst[row], ulps, result, in);
+    const double *bounds = tiny ? (in_double ? accuracy_tiny_bound : accuracy_tiny_float_bound)
+                                : (in_double ? accuracy_bound : accuracy_float_bound);
     t->broken += !(ulps <= bounds[accuracy_rows[row].function]);
 }
 
@@ -177,8 +188,8 @@ static inline void accuracy_check(reference *r, const pair_group *g, int count, 
             double naive = accuracy_naive(&accuracy_rows[row], &brdf, g->l[i], g->v[i]);
             if (memcmp(&result, &batch[row][i], sizeof result) != 0 && t->unlike++ == 0)
                 t->first_unlike = (accuracy_worst){row, batch[row][i], in};
-            accuracy_compare(t, row, &reference_double, accuracy_bound, terms->a,
-                             accuracy_exact(terms, &accuracy_rows[row]), result, naive, &in);
+            accuracy_compare(t, row, &reference_double, terms->a, accuracy_exact(terms, &accuracy_rows[row]), result,
+                             naive, &in);
         }
         ++t->pairs;
     }
@@ -208,8 +219,8 @@ static inline void accuracy_check_float(reference *r, const pair_group *g, int c
         reference_case in = accuracy_case(g, i);
         reference_terms *terms = reference_evaluate(r, &in);
         for (int row = 0; row < ROWS; ++row)
-            accuracy_compare(t, row, &reference_float, accuracy_float_bound, terms->a,
-                             accuracy_exact(terms, &accuracy_rows[row]), (double)batch[row][i], 0, &in);
+            accuracy_compare(t, row, &reference_float, terms->a, accuracy_exact(terms, &accuracy_rows[row]),
+                             (double)batch[row][i], 0, &in);
         ++t->pairs;
     }
 }
