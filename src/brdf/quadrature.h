@@ -20,6 +20,7 @@ void brdf_points_add(brdf_points *, double x);
 typedef enum brdf_ends { BRDF_ENDS_SMOOTH, BRDF_ENDS_ROOTS } brdf_ends;
 
 /* The integral from `low` to `high`, good to a relative 1e-10 in all that this folder integrates. */
-double brdf_integrate(brdf_integrand *, const void *context, double low, double high, const brdf_points *, brdf_ends);
+double brdf_integrate(brdf_integrand *function, const void *context, double low, double high, const brdf_points *points,
+                      brdf_ends ends);
 
 #endif
