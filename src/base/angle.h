@@ -9,4 +9,8 @@ static inline double angle_radians(double degrees) {
     return degrees * (PI / 180);
 }
 
+static inline double angle_degrees(double radians) {
+    return radians / (PI / 180);
+}
+
 #endif

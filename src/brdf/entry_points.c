@@ -2,6 +2,9 @@
 #include "brdf/kernels.h"
 #include "brdf/parameters.h"
 
+/* For one pair or sample, bringing the roughness into its range always, as for arrays, would take a tenth more time:
+ * only a lobe that is out of it is copied. */
+
 double graze_brdf_value(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
     if (!brdf_is_in_range(brdf)) {
         const graze_brdf in_range = brdf_in_range(brdf);

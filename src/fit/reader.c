@@ -146,9 +146,9 @@ void fit_reader_set_mirror(fit_reader *r, fit_mirror mirror, fit_origin origin) 
 }
 
 graze_vec3 fit_reader_direction(fit_reader *r, double polar, double azimuth) {
-    double scale = r->source->conventions.unit == FIT_RADIANS ? 1 : PI / 180;
+    bool radians = r->source->conventions.unit == FIT_RADIANS;
     r->largest_polar = fmax(r->largest_polar, fabs(polar));
-    double t = polar * scale, p = azimuth * scale;
+    double t = radians ? polar : angle_radians(polar), p = radians ? azimuth : angle_radians(azimuth);
     return vec3_make(sin(t) * cos(p), sin(t) * sin(p), cos(t));
 }
 

@@ -234,13 +234,22 @@ static void spread(const REAL *restrict values, size_t count, REAL *restrict num
             numbers[i * stride] = values[i];
 }
 
-/* Scaled what was already cut off at REAL_MAX: once more, from the beginning. */
-static void repair_overflows(BLOCK *b, const evaluation *e, const answer_field *field, int channel, REAL *numbers) {
+/* Whether a result was cut off at REAL_MAX, so that what it is scaled to is wrong. */
+static bool overflows(const BLOCK *b, const evaluation *e, const answer_field *field) {
     const REAL *restrict r = b->result[field->result];
     int found = 0;
+    if (e->query->kind != QUERY_EVAL || field->scaling == SCALING_PLAIN)
+        return false;
     for (size_t i = 0; i < b->count; i++)
         found |= r[i] >= REAL_MAX;
-    for (size_t i = 0; found && i < b->count; i++)
+    return found;
+}
+
+/* Such answers once more, from the beginning. */
+static void repair_overflows(const BLOCK *b, const evaluation *e, const answer_field *field, int channel,
+                             REAL *numbers) {
+    const REAL *r = b->result[field->result];
+    for (size_t i = 0; i < b->count; i++)
         if (r[i] >= REAL_MAX) {
             vec3 l = {b->input[0][i], b->input[1][i], b->input[2][i]};
             vec3 v = {b->input[3][i], b->input[4][i], b->input[5][i]};
@@ -254,6 +263,7 @@ void BLOCK_NAME(answer)(BLOCK *b, const evaluation *e, REAL *numbers) {
     compute(b, e);
     for (int i = 0; i < e->field_count; i++) {
         const answer_field *field = e->fields[i];
+        const bool repairs = overflows(b, e, field);
         for (int channel = 0; channel < evaluation_channels(e, field); channel++) {
             const column c = {.result = b->result[field->result],
                               .lz = b->input[2],
@@ -262,7 +272,7 @@ void BLOCK_NAME(answer)(BLOCK *b, const evaluation *e, REAL *numbers) {
                               .specular = REAL_OF(r->specular[channel]),
                               .count = b->count};
             spread(scale(&c, field->scaling, room), b->count, numbers, (size_t)e->numbers);
-            if (e->query->kind == QUERY_EVAL && field->scaling != SCALING_PLAIN)
+            if (repairs)
                 repair_overflows(b, e, field, channel, numbers);
             numbers++;
         }

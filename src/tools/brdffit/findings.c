@@ -83,7 +83,7 @@ void findings_append_conventions(record_buffer *out, const findings *r) {
     if (r->measurements->channel_count > 1)
         findings_append_format(out, "--roughness %s, ", s->shared ? "shared" : "separate");
     record_append_text(out, "directions up to ");
-    findings_append_number(out, 6, s->max_polar / (PI / 180));
+    findings_append_number(out, 6, angle_degrees(s->max_polar));
     record_append_text(out, " degrees from the normal, ");
     if (!s->total)
         record_append_text(out, "rd free\n");

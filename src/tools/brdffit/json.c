@@ -72,7 +72,7 @@ static void append_settings(record_buffer *out, const findings *r) {
     findings_append_format(out, "  \"settings\": {\"loss\": \"%s\", \"anisotropic\": %s, \"roughness\": \"%s\", ",
                            findings_loss_name(s->loss), s->anisotropic ? "true" : "false",
                            s->shared ? "shared" : "separate");
-    append_number(out, "max_angle", s->max_polar / (PI / 180));
+    append_number(out, "max_angle", angle_degrees(s->max_polar));
     record_append_text(out, ", \"total_reflectance\": ");
     if (!s->total)
         record_append_text(out, "null");

@@ -11,10 +11,6 @@
 #define OUT_OF_PLANE 2.5
 #define PANEL_WIDTH  1.0
 
-static double degrees(double radians) {
-    return radians / (PI / 180);
-}
-
 graze_vec3 plane_light(const plane_point *p) {
     double t = angle_radians(p->polar), a = angle_radians(p->azimuth);
     return vec3_make(sin(t) * cos(a), sin(t) * sin(a), cos(t));
@@ -27,7 +23,7 @@ graze_vec3 plane_view(const plane_point *p, double view) {
 
 /* Light from above makes every view one of the plane, of the plane through x for the sign. */
 static bool make_point(plane_point *p, const fit_pair *pair, size_t index) {
-    double polar = degrees(acos(fmin(pair->l.z, 1)));
+    double polar = angle_degrees(acos(fmin(pair->l.z, 1)));
     bool above = polar < PANEL_WIDTH / 2;
     double azimuth = above ? PI : atan2(pair->l.y, pair->l.x), c = cos(azimuth), s = sin(azimuth);
     double along = -pair->v.x * c - pair->v.y * s, across = pair->v.x * s - pair->v.y * c;
@@ -35,7 +31,7 @@ static bool make_point(plane_point *p, const fit_pair *pair, size_t index) {
         along = copysign(hypot(along, across), along);
     else if (fabs(across) > sin(angle_radians(OUT_OF_PLANE)))
         return false;
-    *p = (plane_point){polar, above ? 180 : degrees(azimuth), degrees(atan2(along, pair->v.z)), index};
+    *p = (plane_point){polar, above ? 180 : angle_degrees(azimuth), angle_degrees(atan2(along, pair->v.z)), index};
     return true;
 }
 
