@@ -1,50 +1,16 @@
 /* A measurement file of any known format. */
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/angle.h"
+#include "base/whole_file.h"
 #include "fit/reader.h"
 
-typedef struct file_bytes {
-    char *bytes;
-    size_t length, capacity;
-} file_bytes;
-
-static graze_status read_descriptor(file_bytes *f, int descriptor, const place *where, const graze_report *report) {
-    for (;;) {
-        if (f->length == f->capacity) {
-            size_t capacity = f->capacity ? 2 * f->capacity : 1 << 16;
-            char *bytes = f->capacity > SIZE_MAX / 2 ? NULL : realloc(f->bytes, capacity);
-            if (!bytes)
-                return report_out_of_memory(report);
-            f->bytes = bytes;
-            f->capacity = capacity;
-        }
-        ssize_t got = read(descriptor, f->bytes + f->length, f->capacity - f->length);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0)
-            return report_file_error(report, where, "cannot read it");
-        if (got == 0)
-            return GRAZE_OK;
-        f->length += (size_t)got;
-    }
-}
-
-static graze_status read_bytes(file_bytes *f, const char *file, const place *where, const graze_report *report) {
-    bool standard = strcmp(file, "-") == 0;
-    int descriptor = standard ? STDIN_FILENO : open(file, O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0)
-        return report_file_error(report, where, "cannot open it");
-    graze_status status = read_descriptor(f, descriptor, where, report);
-    if (!standard)
-        close(descriptor);
-    return status;
+static graze_status read_bytes(whole_file *f, const char *file, const place *where, const graze_report *report) {
+    return strcmp(file, "-") == 0 ? whole_file_read(f, STDIN_FILENO, "it", where, report)
+                                  : whole_file_open(f, file, "it", where, report);
 }
 
 /* A comment's first word behind its #. */
@@ -137,7 +103,7 @@ static fit_source *new_source(fit_measurements *m, const char *name) {
 }
 
 /* What some spreadsheets begin their tables with. */
-static size_t byte_order_mark(const file_bytes *f) {
+static size_t byte_order_mark(const whole_file *f) {
     return f->length >= 3 && memcmp(f->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
@@ -145,7 +111,7 @@ graze_status fit_read(fit_measurements *m, const char *file, const fit_read_opti
                       const graze_report *report) {
     const char *name = strcmp(file, "-") == 0 ? "standard input" : file;
     const place where = {.file = name};
-    file_bytes bytes = {0};
+    whole_file bytes = {0};
     fit_source *source = new_source(m, name);
     if (!source)
         return report_out_of_memory(report);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "rad/command.h"
 #include "rad/words.h"
 #include "rad/xform.h"
 
@@ -372,8 +373,8 @@ graze_status rad_reader_shell(rad_reader *reader, const char *command, const rad
     const char *kept = arena_copy_text(reader->memory, name, strlen(name));
     if (!kept)
         return report_out_of_memory(reader->report);
-    rad_text text;
-    graze_status status = rad_input_command(&text, command, context->directory, context->parent, reader->report);
+    whole_file text;
+    graze_status status = rad_command_output(&text, command, context->directory, context->parent, reader->report);
     if (status)
         return status;
     status = rad_reader_text(reader, &text, kept, context, sink);
@@ -394,7 +395,7 @@ graze_status rad_reader_command(rad_reader *reader, const char *command, const r
 /* ---- Whole inputs ---- */
 
 /* Scripts that run oconv first hand its result to the renderer. */
-static bool is_octree(const rad_text *text) {
+static bool is_octree(const whole_file *text) {
     static const char first[] = "#?RADIANCE\n", format[] = "\nFORMAT=Radiance_octree";
     if (strncmp(text->bytes, first, sizeof first - 1) != 0)
         return false;
@@ -402,7 +403,7 @@ static bool is_octree(const rad_text *text) {
     return found && end && found < end;
 }
 
-graze_status rad_reader_text(rad_reader *reader, const rad_text *text, const char *name, const rad_context *context,
+graze_status rad_reader_text(rad_reader *reader, const whole_file *text, const char *name, const rad_context *context,
                              const rad_sink *sink) {
     source s = {.reader = reader, .name = name, .context = context, .sink = sink};
     place here = place_at(&s, 0, 0);
@@ -434,8 +435,8 @@ graze_status rad_reader_file(rad_reader *reader, const char *path, const rad_con
     const char *name = arena_copy_text(reader->memory, path, strlen(path));
     if (!name)
         return report_out_of_memory(reader->report);
-    rad_text text;
-    graze_status status = rad_input_file(&text, path, context->parent, reader->report);
+    whole_file text;
+    graze_status status = whole_file_open(&text, path, path, context->parent, reader->report);
     if (status)
         return status;
     status = rad_reader_text(reader, &text, name, context, sink);
@@ -445,8 +446,8 @@ graze_status rad_reader_file(rad_reader *reader, const char *path, const rad_con
 
 graze_status rad_reader_standard_input(rad_reader *reader, const rad_context *context, const rad_sink *sink) {
     static const char name[] = "standard input";
-    rad_text text;
-    graze_status status = rad_input_descriptor(&text, STDIN_FILENO, name, context->parent, reader->report);
+    whole_file text;
+    graze_status status = whole_file_read(&text, STDIN_FILENO, name, context->parent, reader->report);
     if (status)
         return status;
     status = rad_reader_text(reader, &text, name, context, sink);

@@ -348,8 +348,8 @@ static graze_status run_file(job *j, const char *const *words, int count, int at
     const char *path = rad_path_resolve(j->reader->memory, j->context->directory, words[at + 1]);
     if (!path)
         return report_out_of_memory(report);
-    rad_text text;
-    graze_status status = rad_input_file(&text, path, j->context->parent, report);
+    whole_file text;
+    graze_status status = whole_file_open(&text, path, path, j->context->parent, report);
     if (status)
         return status;
     rad_words lines;

@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/pipe.h"
+
 extern char **environ;
 
 static int create(const char *file) {
@@ -29,18 +31,6 @@ graze_status gnuplot_write_file(record_buffer *buffer, const char *file, const g
     if (descriptor < 0)
         return report_file_error(report, &(place){.file = file}, "cannot create it");
     return close_file(descriptor, file, record_buffer_write(buffer, descriptor, file, report), report);
-}
-
-/* Both descriptors are beyond the standard ones, and closed in other programs. */
-static int open_pipe(int ends[2]) {
-    int low[2];
-    if (pipe(low) != 0)
-        return -1;
-    ends[0] = fcntl(low[0], F_DUPFD_CLOEXEC, 3);
-    ends[1] = fcntl(low[1], F_DUPFD_CLOEXEC, 3);
-    close(low[0]);
-    close(low[1]);
-    return ends[0] < 0 || ends[1] < 0 ? -1 : 0;
 }
 
 /* posix_spawnp's error number. The child gets the signals back that the tool ignores. */
@@ -85,7 +75,7 @@ static graze_status wait_for(pid_t child, const graze_report *report) {
 static graze_status run(record_buffer *script, int output, const graze_report *report) {
     int ends[2];
     pid_t child = -1;
-    if (open_pipe(ends) != 0)
+    if (pipe_open(ends) != 0)
         return report_system_error(report, NULL, "cannot make a pipe to gnuplot");
     errno = start(&child, ends[0], output);
     int trouble = errno;

@@ -1,0 +1,20 @@
+/* Whole inputs in memory: files, standard input, what a child process says. */
+#ifndef BASE_WHOLE_FILE_H
+#define BASE_WHOLE_FILE_H
+
+#include <stddef.h>
+
+#include "base/report.h"
+
+/* To be freed with free(bytes). A zero byte stands behind the `length` bytes. */
+typedef struct whole_file {
+    char *bytes;
+    size_t length;
+} whole_file;
+
+/* All that can be read from the descriptor, or the file; nothing after an error. Messages call it `name`. */
+graze_status whole_file_read(whole_file *, int descriptor, const char *name, const place *where, const graze_report *);
+graze_status whole_file_open(whole_file *, const char *path, const char *name, const place *where,
+                             const graze_report *);
+
+#endif
