@@ -1,6 +1,7 @@
 /* What kernels_baseline.c, kernels_avx2.c and kernels_avx512.c have in common: all functions, compiled for the
  * instruction set that is in force where this is included, and the table of them. The macro BRDF_FMA says that fma() is
  * one fast instruction there; double_double.h has what uses it. kernels.h has the map. */
+#include "brdf/field_loops.h"
 #include "brdf/float_conversion.h"
 #include "brdf/float_loops.h"
 #include "brdf/kernels.h"
@@ -26,4 +27,5 @@ const brdf_kernels BRDF_TABLE = {
     .sample_pair_batch = sample_pair_batch,
     .widen = widen,
     .narrow = narrow,
+    .field_along_arc = field_along_arc,
 };

@@ -18,6 +18,8 @@
 #include <stddef.h>
 
 #include "brdf/blocks.h"
+#include "brdf/lobe_field.h"
+#include "brdf/outline.h"
 #include "graze/brdf.h"
 #include "graze/brdf_batch.h"
 
@@ -39,6 +41,9 @@ typedef void brdf_sample_pair_batch_function(const graze_brdf *, size_t, graze_v
 typedef void brdf_widen_function(brdf_block *to, const float *const *from, int arrays, size_t start, size_t length);
 typedef void brdf_narrow_function(float *const *to, const brdf_block *from, int arrays, size_t start, size_t length);
 
+/* Part of an integral along an outline; lobe_field.h has what it is of. */
+typedef double brdf_field_along_arc_function(const brdf_lobe_field *, const brdf_arc *, double from, double to);
+
 /* Functions of brdf.h and brdf_batch.h, compiled for one instruction set. All tables give the same bits. */
 typedef struct brdf_kernels {
     const char *name;
@@ -51,6 +56,7 @@ typedef struct brdf_kernels {
     brdf_sample_pair_batch_function *sample_pair_batch;
     brdf_widen_function *widen;
     brdf_narrow_function *narrow;
+    brdf_field_along_arc_function *field_along_arc;
 } brdf_kernels;
 
 extern const brdf_kernels brdf_kernels_baseline;
