@@ -56,6 +56,11 @@ static inline vec3 vec3_safe_normalize(vec3 a) {
     return most > 0 ? vec3_normalize((vec3){a.x / most, a.y / most, a.z / most}) : (vec3){0, 0, 0};
 }
 
+/* A unit vector at right angles to a unit vector. */
+static inline vec3 vec3_perpendicular(vec3 a) {
+    return vec3_normalize(fabs(a.x) < fabs(a.z) ? (vec3){0, a.z, -a.y} : (vec3){-a.y, a.x, 0});
+}
+
 /* An orthonormal, right-handed frame: x cross y = z. */
 typedef struct frame {
     vec3 x, y, z;

@@ -139,3 +139,39 @@ shape_crossings shape_cross(const shape *s, vec3 origin, vec3 direction, bool le
     }
     return (shape_crossings){0};
 }
+
+/* Even-odd, in the plane of the two axes across which the polygon is seen largest. */
+static bool polygon_contains(const shape *s, vec3 point) {
+    vec3 n = s->polygon.normal;
+    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+    bool drop_x = x >= y && x >= z, drop_y = !drop_x && y >= z, inside = false;
+    const vec3 *vertices = s->polygon.vertices;
+    uint32_t count = s->polygon.vertex_count;
+    for (uint32_t i = 0, before = count - 1; i < count; before = i++) {
+        vec3 a = vec3_subtract(vertices[before], point), b = vec3_subtract(vertices[i], point);
+        double ax = drop_x ? a.y : a.x, ay = drop_x || drop_y ? a.z : a.y;
+        double bx = drop_x ? b.y : b.x, by = drop_x || drop_y ? b.z : b.y;
+        if ((ay > 0) != (by > 0) && (bx * ay - ax * by > 0) == (ay > by))
+            inside = !inside;
+    }
+    return inside;
+}
+
+bool shape_front_crossing(const shape *s, vec3 origin, vec3 direction, double *distance) {
+    if (s->kind == SHAPE_CONE)
+        return false;
+    if (s->kind == SHAPE_POLYGON) {
+        double slope = vec3_dot(s->polygon.normal, direction);
+        double height = vec3_dot(s->polygon.normal, vec3_subtract(s->polygon.center, origin));
+        *distance = height / slope;
+        return slope < 0 && height < 0 && polygon_contains(s, vec3_add_scaled(origin, *distance, direction));
+    }
+    shape_crossings crossings = shape_cross(s, origin, direction, false);
+    for (int i = 0; i < crossings.count; i++) {
+        *distance = crossings.distance[i];
+        vec3 point = vec3_add_scaled(origin, *distance, direction);
+        if (*distance > 0 && vec3_dot(shape_normal(s, point), direction) < 0)
+            return true;
+    }
+    return false;
+}

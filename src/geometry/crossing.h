@@ -14,4 +14,8 @@ typedef struct shape_crossings {
  * divided out of the equation, so that a second one is found however close it lies. */
 shape_crossings shape_cross(const shape *, vec3 origin, vec3 direction, bool leaves);
 
+/* Whether a ray from a point off the shape meets its front, whatever else may stand in the way, and where first. Of
+ * sides of cones, it says false. */
+bool shape_front_crossing(const shape *, vec3 origin, vec3 direction, double *distance);
+
 #endif

@@ -51,7 +51,7 @@ static bool pixel_ray(const pixel *p, double x, double y, graze_ray *ray) {
                         &ray->direction, &ray->limit);
 }
 
-static rgb sample_pixel(void *user, sampler *points, estimate_luck *luck) {
+static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck) {
     const pixel *p = user;
     const rendering *r = p->rendering;
     double jitter = r->picture->jitter;
@@ -63,13 +63,13 @@ static rgb sample_pixel(void *user, sampler *points, estimate_luck *luck) {
     }
     graze_ray ray;
     if (!pixel_ray(p, 0.5 + jitter * (random[0] - 0.5), 0.5 + jitter * (random[1] - 0.5), &ray))
-        return (rgb){0, 0, 0};
+        return (path_sample){.noisy = false};
     path_context context = {r->scene, &r->trace};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     path_sample sample = path_radiance(&context, &first, points);
     if (sample.noisy)
         *luck = sample.searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
-    return sample.radiance;
+    return sample;
 }
 
 static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings) {

@@ -175,6 +175,17 @@ static bool is_glow_source(const graze_scene *scene, const rad_primitive *p) {
     return p->modifier != RAD_VOID && scene->primitives[p->modifier].type == RAD_GLOW;
 }
 
+static bool sources_are_apart(const graze_scene *scene) {
+    for (size_t i = scene->first_source; i < scene->light_count; i++)
+        for (size_t k = scene->first_source; k < i; k++) {
+            const scene_light *a = &scene->lights[i], *b = &scene->lights[k];
+            double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
+            if (angle >= PI || between <= 2 * sin(angle / 2))
+                return false;
+        }
+    return true;
+}
+
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
 static void add_surfaces(builder *b, size_t count) {
     graze_scene *scene = b->scene;
@@ -190,6 +201,7 @@ static void add_surfaces(builder *b, size_t count) {
         for (size_t i = 0; i < count; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, &scene->primitives[i]) == glow)
                 add_source(b, (int)i);
+    scene->sources_apart = sources_are_apart(scene);
 }
 
 /* Arrays as large as they can become: surfaces and materials are primitives, lights are surfaces. */

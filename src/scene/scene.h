@@ -67,6 +67,7 @@ struct graze_scene {
     scene_light *lights; /* the shapes first, then the sources */
     size_t light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
+    bool sources_apart;  /* no direction is in two of them */
     geometry *geometry;
 };
 

@@ -20,6 +20,9 @@
 typedef struct replicates {
     uint64_t key[ESTIMATE_REPLICATES];
     rgb sum[ESTIMATE_REPLICATES];
+    path_control controls[PATH_CONTROLS][ESTIMATE_REPLICATES]; /* sums */
+    path_control totals[PATH_CONTROLS];
+    int control_count;
     uint32_t taken;     /* of all replicates together */
     estimate_luck luck; /* the worst of any sample */
 } replicates;
@@ -28,15 +31,31 @@ static uint32_t replicate_count(const replicates *r, int i) {
     return r->taken / ESTIMATE_REPLICATES + ((uint32_t)i < r->taken % ESTIMATE_REPLICATES);
 }
 
+/* The share of a control that is added to a replicate's sum: of what the other replicates have found, so that it does
+ * not depend on the replicate's own samples and the mean stays what it is. */
+static double share_of_control(const path_control *total, const path_control *own) {
+    double lit = total->lit - own->lit, whole = total->whole - own->whole;
+    return lit < whole ? fmax(lit, 0) / whole : 1;
+}
+
+static rgb controlled_sum(const replicates *r, int i) {
+    rgb sum = r->sum[i];
+    for (int k = 0; k < r->control_count; k++)
+        sum = rgb_add_scaled(sum, share_of_control(&r->totals[k], &r->controls[k][i]), r->controls[k][i].difference);
+    return sum;
+}
+
 /* The mean of all samples, and its standard error: the replicates' sums scatter about their shares of the total. */
 static void summarize(const replicates *r, graze_answer *answer) {
-    rgb total = {0, 0, 0}, variance = {0, 0, 0};
+    rgb sums[ESTIMATE_REPLICATES], total = {0, 0, 0}, variance = {0, 0, 0};
     int used = r->taken < ESTIMATE_REPLICATES ? (int)r->taken : ESTIMATE_REPLICATES;
-    for (int i = 0; i < used; i++)
-        total = rgb_add(total, r->sum[i]);
+    for (int i = 0; i < used; i++) {
+        sums[i] = controlled_sum(r, i);
+        total = rgb_add(total, sums[i]);
+    }
     rgb mean = rgb_scale(1.0 / r->taken, total);
     for (int i = 0; i < used; i++) {
-        rgb deviation = rgb_add_scaled(r->sum[i], -(double)replicate_count(r, i), mean);
+        rgb deviation = rgb_add_scaled(sums[i], -(double)replicate_count(r, i), mean);
         variance = rgb_add(variance, rgb_multiply(deviation, deviation));
     }
     double scale = used > 1 ? used / (used - 1.0) / ((double)r->taken * r->taken) : 0;
@@ -45,11 +64,23 @@ static void summarize(const replicates *r, graze_answer *answer) {
     answer->samples = r->taken;
 }
 
+static void add_control(path_control *sum, const path_control *control) {
+    sum->difference = rgb_add(sum->difference, control->difference);
+    sum->lit += control->lit;
+    sum->whole += control->whole;
+}
+
 static estimate_luck take_one(replicates *r, estimate_sample *sample, void *user) {
     int i = (int)(r->taken % ESTIMATE_REPLICATES);
     sampler points = sampler_start(r->key[i], r->taken / ESTIMATE_REPLICATES);
     estimate_luck luck = ESTIMATE_NOISY;
-    r->sum[i] = rgb_add(r->sum[i], sample(user, &points, &luck));
+    path_sample taken = sample(user, &points, &luck);
+    r->sum[i] = rgb_add(r->sum[i], taken.radiance);
+    for (int k = 0; k < taken.control_count; k++) {
+        add_control(&r->controls[k][i], &taken.controls[k]);
+        add_control(&r->totals[k], &taken.controls[k]);
+    }
+    r->control_count = taken.control_count > r->control_count ? taken.control_count : r->control_count;
     r->luck = luck > r->luck ? luck : r->luck;
     r->taken++;
     return luck;

@@ -11,6 +11,7 @@
 
 #include "base/vector.h"
 #include "graze/trace.h"
+#include "trace/path.h"
 #include "trace/sampler.h"
 
 #define ESTIMATE_REPLICATES 16
@@ -24,7 +25,7 @@ typedef enum estimate_luck {
 } estimate_luck;
 
 /* Draws one sample. */
-typedef rgb estimate_sample(void *user, sampler *, estimate_luck *luck);
+typedef path_sample estimate_sample(void *user, sampler *, estimate_luck *luck);
 
 /* Takes samples until the settings' error or number of samples is reached. `stream` tells estimates apart. */
 void estimate(const graze_trace_settings *, uint64_t stream, estimate_sample *, void *user, graze_answer *);

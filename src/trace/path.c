@@ -7,8 +7,10 @@
 #include "trace/path.h"
 
 #include "base/angle.h"
+#include "geometry/crossing.h"
 #include "graze/material.h"
 #include "scene/light.h"
+#include "trace/unshadowed.h"
 
 /* Beyond this many reflections every path plays roulette, so that a room of perfect mirrors ends. */
 #define ENDLESS_DEPTH    64
@@ -21,7 +23,7 @@
 #define LARGEST_THROUGHPUT 1e30
 
 /* Up to so many lights are all sampled, at the first point and at later ones; of more, one is chosen. */
-#define EVERY_LIGHT_FIRST 8
+#define EVERY_LIGHT_FIRST PATH_FIRST_CONTROLS
 #define EVERY_LIGHT_LATER 2
 
 /* A point that light is gathered at, and how the path got there. */
@@ -43,6 +45,13 @@ typedef struct scattering {
     light_receiver receiver;
 } scattering;
 
+/* The lights at the last vertex whose unshadowed light is known, a bit each, and where to keep the control of the first
+ * of them. */
+typedef struct known_lights {
+    unsigned lights;
+    bool shared; /* one control for all */
+} known_lights;
+
 typedef struct path {
     const path_context *context;
     sampler *sampler;
@@ -52,6 +61,9 @@ typedef struct path {
     bool scattered;    /* whether any of them was not a mirror's */
     bool searching;    /* whether one may meet lights that no light sample finds */
     scattering last;
+    known_lights known;
+    path_control controls[PATH_CONTROLS];
+    int control_count;
 } path;
 
 path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int from) {
@@ -150,22 +162,23 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
     return power_heuristic(last->density, other);
 }
 
-static void add_emission(path *p, const path_hit *hit) {
+/* What the path gets of the emitter it has hit. */
+static rgb emission(const path *p, const path_hit *hit) {
     const scene_light *light = &p->context->scene->lights[hit->light];
     light_role role = light_role_at(light, hit->distance);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
     if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
-        return;
+        return rgb_gray(0);
     if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
         if (role == LIGHT_AMBIENT && !p->last.ambient)
-            return;
+            return rgb_gray(0);
         throughput = role == LIGHT_DIRECT ? p->last.direct : p->last.indirect;
         throughput = rgb_scale(found_weight(p, hit, role), throughput);
         radiance = light_radiance_at(light, hit->direction, hit->normal, hit->distance);
     } else if (role != LIGHT_AMBIENT && !p->context->settings->lights_visible) {
-        return;
+        return rgb_gray(0);
     }
-    p->radiance = rgb_add(p->radiance, rgb_multiply(throughput, radiance));
+    return rgb_multiply(throughput, radiance);
 }
 
 static bool ambient_bounces_left(const path *p) {
@@ -226,6 +239,77 @@ static lobe_choice choose_lobes(const path *p, const vertex *v) {
     return choice;
 }
 
+static bool is_known(const path *p, int light) {
+    return light < PATH_FIRST_CONTROLS && p->known.lights >> light & 1;
+}
+
+static path_control *control_of(path *p, int light) {
+    return &p->controls[p->known.shared ? PATH_FIRST_CONTROLS : light];
+}
+
+/* Takes what a sample finds, or would find without shadows, of a light that is known. */
+static void subtract_found(path *p, int light, rgb found, bool lit) {
+    path_control *control = control_of(p, light);
+    double brightness = rgb_brightness(found);
+    control->difference = rgb_add_scaled(control->difference, -1, found);
+    control->whole += brightness;
+    control->lit += lit ? brightness : 0;
+}
+
+/* Whether a light shines on all points alike: its role does not depend on its distance. */
+static bool has_one_role(const scene_light *light) {
+    return !light->glow || light->glow_radius == 0;
+}
+
+/* Adds what is known of the lights' unshadowed light at a vertex, and remembers of which. */
+static void add_known_light(path *p, const vertex *v, const light_receiver *receiver) {
+    const graze_scene *scene = p->context->scene;
+    p->known = (known_lights){0, p->depth > 0};
+    if (!receiver->every)
+        return;
+    for (int i = 0; i < (int)scene->light_count; i++) {
+        const scene_light *light = &scene->lights[i];
+        bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
+        unshadowed_light whole;
+        if (light_probability(scene, receiver, i) == 0 || !has_one_role(light) ||
+            !unshadowed_light_at(scene, &v->shading, v->point, i, glossy, &whole))
+            continue;
+        rgb diffuse = !ambient ? v->shading.diffuse : ambient_bounces_left(p) ? v->ambient : rgb_gray(0);
+        rgb reflectance = rgb_scale(whole.diffuse, diffuse);
+        if (glossy)
+            reflectance = rgb_add_scaled(reflectance, whole.glossy, v->shading.specular);
+        p->known.lights |= 1u << i;
+        path_control *control = control_of(p, i);
+        rgb reflected = rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
+        control->difference = rgb_add(control->difference, reflected);
+        p->control_count = p->known.shared ? PATH_CONTROLS : i + 1 > p->control_count ? i + 1 : p->control_count;
+    }
+}
+
+/* Takes away what the last reflection finds, or would find without shadows, of the known lights. */
+static void subtract_reflected(path *p, const vertex *from, const path_hit *hit, rgb found) {
+    const graze_scene *scene = p->context->scene;
+    for (int i = 0; i < (int)scene->light_count && i < PATH_FIRST_CONTROLS; i++) {
+        if (!is_known(p, i))
+            continue;
+        if (hit->light == i && !hit->passed) {
+            subtract_found(p, i, found, true);
+            continue;
+        }
+        const scene_light *light = &scene->lights[i];
+        path_hit whole = {.surface = light->surface, .light = i, .distance = GEOMETRY_FAR, .direction = hit->direction};
+        if (light->shape) {
+            if (!shape_front_crossing(light->shape, from->point, hit->direction, &whole.distance))
+                continue;
+            whole.point = vec3_add_scaled(from->point, whole.distance, hit->direction);
+            whole.normal = shape_normal(light->shape, whole.point);
+        } else if (light_source_towards(scene, hit->direction) != i) {
+            continue;
+        }
+        subtract_found(p, i, emission(p, &whole), false);
+    }
+}
+
 /* Whether nothing stands between a vertex and a light's sampled point. */
 static bool light_is_visible(const path *p, const vertex *v, const light_sample *sample) {
     const graze_scene *scene = p->context->scene;
@@ -272,9 +356,14 @@ static void add_sampled_light(path *p, const vertex *v, const light_receiver *re
     if (cosine <= 0)
         return;
     rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice), sample.radiance);
-    if (rgb_is_black(reflected) || !light_is_visible(p, v, &sample))
+    if (rgb_is_black(reflected))
         return;
-    p->radiance = rgb_add_scaled(p->radiance, cosine / density, rgb_multiply(p->throughput, reflected));
+    bool lit = light_is_visible(p, v, &sample);
+    rgb found = rgb_scale(cosine / density, rgb_multiply(p->throughput, reflected));
+    if (lit)
+        p->radiance = rgb_add(p->radiance, found);
+    if (is_known(p, light))
+        subtract_found(p, light, found, lit);
 }
 
 /* Samples every light, or one that is chosen. */
@@ -347,20 +436,24 @@ static void follow(path *p, vertex v) {
             p->radiance = rgb_add(
                 p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
         lobe_choice choice = choose_lobes(p, &v);
+        p->known.lights = 0;
         bool glossy = v.shading.specular_lobe == GRAZE_LOBE_GLOSSY;
         light_receiver receiver = {.point = v.point, .normal = v.shading.n};
         receiver.ambient = samples_glows(context) && (ambient_bounces_left(p) || (glossy && !v.gloss_is_ambient));
         receiver.every = context->scene->light_count <= (p->depth == 0 ? EVERY_LIGHT_FIRST : EVERY_LIGHT_LATER);
         if (samples_lights(context) && (glossy || !rgb_is_black(v.ambient))) {
             light_receiver_prepare(context->scene, &receiver);
+            add_known_light(p, &v, &receiver);
             add_direct_light(p, &v, &receiver, choice);
         }
         vec3 direction;
         if (!reflect(p, &v, &receiver, choice, &direction))
             return;
         path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
-        if (hit.light >= 0)
-            add_emission(p, &hit);
+        rgb found = hit.light >= 0 ? emission(p, &hit) : rgb_gray(0);
+        p->radiance = rgb_add(p->radiance, found);
+        if (p->known.lights)
+            subtract_reflected(p, &v, &hit, found);
         if (!path_vertex(p, &hit, &v))
             return;
     }
@@ -371,7 +464,13 @@ static path path_start(const path_context *context, sampler *points) {
 }
 
 static path_sample path_end(const path *p, uint32_t first_group) {
-    return (path_sample){p->radiance, p->sampler->group != first_group, p->searching};
+    path_sample sample = {.radiance = p->radiance,
+                          .control_count = p->control_count,
+                          .noisy = p->sampler->group != first_group,
+                          .searching = p->searching};
+    for (int i = 0; i < p->control_count; i++)
+        sample.controls[i] = p->controls[i];
+    return sample;
 }
 
 path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
@@ -379,7 +478,7 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     uint32_t first_group = points->group;
     vertex v;
     if (first->light >= 0)
-        add_emission(&p, first);
+        p.radiance = emission(&p, first);
     if (path_vertex(&p, first, &v))
         follow(&p, v);
     return path_end(&p, first_group);

@@ -25,8 +25,22 @@ typedef struct path_hit {
 /* Finds what the ray meets first, passing hidden back faces. */
 path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int from);
 
+/* Direct light as if nothing cast shadows is known without sampling (trace/unshadowed.h). What the same samples would
+ * find of it differs from it by `difference`, whose mean is 0; it may be added in any proportion. The best one is how
+ * much of it is not shadowed, and that is about `lit / whole`: the brightness of what the samples find of it with
+ * and without shadows. */
+typedef struct path_control {
+    rgb difference;
+    double lit, whole;
+} path_control;
+
+/* One for each of the first lights at the first point, and one for all lights at later points. */
+enum { PATH_FIRST_CONTROLS = 8, PATH_CONTROLS = PATH_FIRST_CONTROLS + 1 };
+
 typedef struct path_sample {
     rgb radiance;
+    path_control controls[PATH_CONTROLS];
+    int control_count; /* the others are 0 */
     bool noisy;     /* random numbers were drawn: another sample may differ */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall
                      */

@@ -97,13 +97,13 @@ typedef struct request {
     vec3 origin, direction;
 } request;
 
-static rgb sample_ray(void *user, sampler *points, estimate_luck *luck) {
+static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) {
     const request *r = user;
     path_sample sample = r->context.settings->quantity == GRAZE_IRRADIANCE
                              ? path_irradiance(&r->context, r->origin, r->direction, points)
                              : path_radiance(&r->context, &r->first, points);
     *luck = sample.searching ? ESTIMATE_SEARCH : sample.noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
-    return sample.radiance;
+    return sample;
 }
 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,
