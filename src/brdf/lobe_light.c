@@ -11,7 +11,7 @@
 /* A smaller cosine of the view would change little: the weight (15) is 2, but next to the horizon. */
 static const double least_cosine = 1e-7;
 
-/* Gauss's points do for a piece of an arc that goes nowhere faster than this, in all that a `place` keeps of it, over
+/* Gauss's points do for a piece of an arc that goes nowhere faster than this, in all that a `change` tells, over
  * u from one end to the other; and where one half of a piece that long is not so many times as long as the other. */
 static const double fastest = 1.5, fastest_uneven = .15, uneven = 2;
 
@@ -21,13 +21,19 @@ static const double farthest = 6.5;
 /* No more pieces than this are cut in two, whatever comes. */
 static const int most_cuts = 300;
 
-/* A point of an arc, and what the field along the arc goes with: coordinates in the slope plane, the logarithm of
- * 1 + lean a, and the direction, twice. */
-enum { FEATURES = 6 };
+/* A point of an arc: its coordinates in the slope plane, and how the field goes there. */
 typedef struct place {
     double u, a, b;
-    double features[FEATURES];
+    double near_a, near_b, divisor; /* 1 + lean a */
+    graze_vec3 direction;
 } place;
+
+/* How far what the field along an arc depends on goes from one place to another: the coordinates within reach, the
+ * logarithm of the divisor, about, and the direction, twice. */
+enum { FEATURES = 6 };
+typedef struct change {
+    double by[FEATURES];
+} change;
 
 typedef struct field_integral {
     brdf_lobe_field field;
@@ -38,17 +44,21 @@ typedef struct field_integral {
 } field_integral;
 
 /* Further out, the field does not change any more. */
-static double within_reach(double coordinate) {
-    return fmax(fmin(coordinate, farthest), -farthest);
+static double within_reach(double x) {
+    x = x < farthest ? x : farthest;
+    return x > -farthest ? x : -farthest;
 }
 
 static place place_at(const brdf_lobe_field *f, const brdf_arc *arc, double u) {
     graze_vec3 e = brdf_arc_at(arc, u);
-    double distance = sqrt(e.x * e.x + e.y * e.y + e.z * e.z), height = e.z + distance * f->v.z;
-    double x = (e.x + distance * f->v.x) / height, y = (e.y + distance * f->v.y) / height, twice = 2 / distance;
-    double a = f->a_of_x * x + f->a_of_y * y, b = f->b_of_x * x + f->b_of_y * y;
-    double near_a = within_reach(a), near_b = within_reach(b), logarithm = log(fabs(1 + f->plane.lean * near_a));
-    return (place){u, a, b, {near_a, near_b, logarithm, twice * e.x, twice * e.y, twice * e.z}};
+    double per_distance = 1 / sqrt(e.x * e.x + e.y * e.y + e.z * e.z);
+    graze_vec3 l = {e.x * per_distance, e.y * per_distance, e.z * per_distance};
+    double per_height = 1 / (l.z + f->v.z), x = (l.x + f->v.x) * per_height, y = (l.y + f->v.y) * per_height;
+    place p = {.u = u, .a = f->a_of_x * x + f->a_of_y * y, .b = f->b_of_x * x + f->b_of_y * y, .direction = l};
+    p.near_a = within_reach(p.a);
+    p.near_b = within_reach(p.b);
+    p.divisor = 1 + f->plane.lean * p.near_a;
+    return p;
 }
 
 static void measure(void *context, const brdf_arc *arc, double from, double to) {
@@ -59,53 +69,71 @@ static void measure(void *context, const brdf_arc *arc, double from, double to) 
     i->highest = fmax(i->highest, b);
 }
 
-static double distance_between(place from, place to) {
+static change change_between(const place *from, const place *to) {
+    return (change){{to->near_a - from->near_a, to->near_b - from->near_b,
+                     2 * (to->divisor - from->divisor) / (to->divisor + from->divisor),
+                     2 * (to->direction.x - from->direction.x), 2 * (to->direction.y - from->direction.y),
+                     2 * (to->direction.z - from->direction.z)}};
+}
+
+static double square_of(const change *c) {
     double sum = 0;
     for (int i = 0; i < FEATURES; ++i)
-        sum += (to.features[i] - from.features[i]) * (to.features[i] - from.features[i]);
-    return sqrt(sum);
+        sum += c->by[i] * c->by[i];
+    return sum;
 }
 
-/* At u of the first of three places, on the parabola through them; their u are evenly spaced over a length of 1. */
-static double speed_at_end(place end, place middle, place other) {
+/* The speed, squared, with which a piece begins that goes so far in its first and in its second half, on the parabola
+ * through both. */
+static double square_of_speed(const change *first, const change *second) {
     double sum = 0;
     for (int i = 0; i < FEATURES; ++i) {
-        double speed = 4 * middle.features[i] - 3 * end.features[i] - other.features[i];
+        double speed = 3 * first->by[i] - second->by[i];
         sum += speed * speed;
     }
-    return sqrt(sum);
+    return sum;
 }
 
-static bool is_smooth(place from, place middle, place to) {
-    double speed = fmax(speed_at_end(from, middle, to), speed_at_end(to, middle, from));
-    double first = distance_between(from, middle), second = distance_between(middle, to);
-    bool is_uneven = fmax(first, second) > uneven * fmin(first, second);
-    return speed <= (is_uneven ? fastest_uneven : fastest);
+static bool is_smooth(const place *from, const place *middle, const place *to) {
+    change first = change_between(from, middle), second = change_between(middle, to);
+    double begins = square_of_speed(&first, &second), ends = square_of_speed(&second, &first);
+    double a = square_of(&first), b = square_of(&second);
+    bool is_uneven = a > uneven * uneven * b || b > uneven * uneven * a;
+    double limit = is_uneven ? fastest_uneven : fastest;
+    return begins <= limit * limit && ends <= limit * limit;
+}
+
+static double least(double a, double b, double c) {
+    double smaller = a < b ? a : b;
+    return smaller < c ? smaller : c;
 }
 
 /* Whether there is nothing of the field as near to the three as they are to each other. */
-static bool is_nothing(double base, place from, place middle, place to) {
-    double reach = farthest + hypot(middle.a - from.a, middle.b - from.b) + hypot(to.a - middle.a, to.b - middle.b);
-    double least_a = fmin(fmin(from.a, to.a), middle.a), most_a = fmax(fmax(from.a, to.a), middle.a);
-    double least_b = fmin(fmin(from.b, to.b), middle.b), most_b = fmax(fmax(from.b, to.b), middle.b);
-    return least_a > reach || most_a < -reach || (base > 0 && least_b > reach) || (base < 0 && most_b < -reach);
+static bool is_nothing(double base, const place *from, const place *middle, const place *to) {
+    double length = fabs(middle->a - from->a) + fabs(middle->b - from->b) + fabs(to->a - middle->a) +
+                    fabs(to->b - middle->b);
+    double reach = farthest + length;
+    return least(from->a, middle->a, to->a) > reach || least(-from->a, -middle->a, -to->a) > reach ||
+           (base > 0 && least(from->b, middle->b, to->b) > reach) ||
+           (base < 0 && least(-from->b, -middle->b, -to->b) > reach);
 }
 
-static double integrate(field_integral *i, const brdf_arc *arc, place from, place to) {
-    place middle = place_at(&i->field, arc, (from.u + to.u) / 2);
-    if (is_nothing(i->field.base, from, middle, to))
+static double integrate(field_integral *i, const brdf_arc *arc, const place *from, const place *to) {
+    place middle = place_at(&i->field, arc, (from->u + to->u) / 2);
+    if (is_nothing(i->field.base, from, &middle, to))
         return 0;
-    if (i->cuts < most_cuts && !is_smooth(from, middle, to)) {
+    if (i->cuts < most_cuts && !is_smooth(from, &middle, to)) {
         i->cuts++;
-        double first = integrate(i, arc, from, middle);
-        return first + integrate(i, arc, middle, to);
+        double first = integrate(i, arc, from, &middle);
+        return first + integrate(i, arc, &middle, to);
     }
-    return i->kernels->field_along_arc(&i->field, arc, from.u, to.u);
+    return i->kernels->field_along_arc(&i->field, arc, from->u, to->u);
 }
 
 static void add(void *context, const brdf_arc *arc, double from, double to) {
     field_integral *i = context;
-    i->sum += integrate(i, arc, place_at(&i->field, arc, from), place_at(&i->field, arc, to));
+    place begin = place_at(&i->field, arc, from), end = place_at(&i->field, arc, to);
+    i->sum += integrate(i, arc, &begin, &end);
 }
 
 static void prepare_field(brdf_lobe_field *f, const graze_brdf *brdf, graze_vec3 v) {
