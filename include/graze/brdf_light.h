@@ -11,14 +11,14 @@
  * point; which of its sides faces the point, and which way round it goes, does not matter. Results are the reflected
  * radiance for a radiance of 1: the integral of value x l.z over the directions l of the light, 0 .. 1.
  *
- *   relative error           tested    measured
- *   graze_brdf_polygon       1e-8      2e-9
- *   graze_brdf_ellipse       1e-6      2e-7
- *   graze_diffuse_polygon    1e-14     1e-15
- *   graze_diffuse_ellipse    1e-9      1e-10
+ *   error                    relative  at least  measured, relative
+ *   graze_brdf_polygon       1e-8      1e-14     2e-9
+ *   graze_brdf_ellipse       1e-6      1e-11     2e-7
+ *   graze_diffuse_polygon    1e-14     1e-14     1e-15
+ *   graze_diffuse_ellipse    1e-9      1e-11     1e-10
  *
- * and 1e-14 at least; for the lobe, 4e-16/(roughness v.z) more, since so much does a unit vector's rounding matter;
- * for v.z of 1e-6 or more, as tested; where the surface point lies on the outline or next to it (by less than 1e-6 of
+ * as tested; for the lobe, 4e-16/(roughness v.z) more, since so much does a unit vector's rounding matter; and these
+ * for v.z of 1e-6 or more. Where the surface point lies on the outline or next to it (by less than 1e-6 of
  * its size), only that they are in 0 .. 1. Results are 0 for v below the surface, for fewer than three corners, and for
  * what is not finite. */
 #ifndef GRAZE_BRDF_LIGHT_H

@@ -4,6 +4,7 @@
 
 #include "graze/brdf.h"
 #include "graze/brdf_batch.h"
+#include "graze/brdf_light.h"
 #include "graze/error.h"
 #include "graze/export.h"
 #include "graze/material.h"

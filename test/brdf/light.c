@@ -19,7 +19,7 @@ static graze_vec3 cross(graze_vec3 a, graze_vec3 b) {
 }
 
 static void assert_near(double a, double b, double relative) {
-    if (!(fabs(a - b) <= relative * fabs(b) + 1e-14))
+    if (!(fabs(a - b) <= fmax(relative * fabs(b), relative > 1e-8 ? 1e-11 : 1e-14)))
         fail_msg("%.17g is not %.17g", a, b);
 }
 
