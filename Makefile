@@ -188,11 +188,16 @@ demo:
 	@$(MAKE) $(JOBS) --no-print-directory all $(BUILD)/agreement
 	@scripts/demo $(BIN) $(BUILD)/agreement out
 
-# figures: draw the paper's figures of the reflectance model into out/figures, and check the claims that go with them
+# figures: draw the paper's figures into out/figures, and check the claims that go with them
 figures:
 	@scripts/install-dependencies build figures
-	@$(MAKE) $(JOBS) --no-print-directory $(BIN)/brdfeval
-	@figures/draw $(BIN)/brdfeval out/figures
+	@$(MAKE) $(JOBS) --no-print-directory programs
+	@figures/draw $(BIN) out/figures
+
+# figures-page: the same, and bring the manual's page of figures, man/figures/README.md, up to date
+.PHONY: figures-page
+figures-page: figures
+	@figures/page out/figures man/figures
 
 # test: build and run all tests; installs what is missing first. PEER=no leaves out the comparison with real Radiance
 test:
@@ -202,10 +207,10 @@ test:
 	@BUILD=$(BUILD) BIN=$(BIN) MAKE=$(MAKE) test/run $(TEST_GROUPS)
 test: TEST_GROUPS = unit cli $(if $(filter no,$(PEER)),,peer)
 
-# bench: what the models cost beside libmvec, records beside cat and rcalc, rays beside rtrace; BENCH=brdf, records or rays
-BENCH := brdf records rays
+# bench: models beside libmvec, records beside cat and rcalc, rays and pictures beside rtrace; BENCH=brdf, ... for one of these
+BENCH := brdf records rays pictures
 bench:
-	@scripts/install-dependencies build test
+	@scripts/install-dependencies build test $(if $(filter pictures,$(BENCH)),figures)
 	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)
 	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf
 	@for part in $(BENCH); do \

@@ -13,9 +13,10 @@
  *            s + F(v.n) (1 - s) for plastic, F(v.n) + C s (1 - F(v.n)) for metal
  *
  * with Radiance's estimate of Fresnel reflection F(c) = max(0, exp(-5.85 c) - 0.00287989916), for the viewer's cosine
- * bounded from below by 0.001, and F = 0 where s < 0.017999. All of it is reciprocal, and reflects at most what arrives
- * if C and s are in 0 .. 1; larger values are computed as they stand (C (1 - s) becomes 0 where s > 1). Light below the
- * surface (l.n <= 0) is not reflected, and nothing is reflected specularly to a viewer at or below it (v.n <= 0).
+ * bounded from below by 0.001, and F = 0 where s < 0.017999. All of it is reciprocal, and with GRAZE_BRDF_GMD reflects
+ * at most what arrives if C and s are in 0 .. 1; larger values are computed as they stand (C (1 - s) becomes 0 where s
+ * > 1). Light below the surface (l.n <= 0) is not reflected, and nothing is reflected specularly to a viewer at or
+ * below it (v.n <= 0).
  *
  * All directions are unit vectors in world space that point away from the surface. No function here can fail,
  * allocates, or keeps state: a prepared surface may be used by any number of threads. For parameters that are not
@@ -112,6 +113,12 @@ typedef struct graze_surface_sample {
  */
 GRAZE_API graze_surface_sample graze_surface_sample_lobe(const graze_surface *, graze_lobe, double s, double t,
                                                          double u);
+
+/* The glossy lobe as Radiance sampled it before release 4, and still does by default: Ward's sampling (s, t), the
+ * weight left out: every direction that is kept weighs `specular`, whatever the model. Draw again where it is rejected,
+ * as Radiance does. For comparison only: at grazing angles this is wrong by tens of per cent and more. Other lobes than
+ * GLOSSY, and views from the horizon or below, only give rejected samples. */
+GRAZE_API graze_surface_sample graze_surface_sample_unweighted(const graze_surface *, double s, double t);
 
 /* The density per unit solid angle with which graze_surface_sample_lobe draws l for this lobe. 0 for MIRROR and for
  * specular lobes that the surface does not have. */

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "graze/brdf.h"
 #include "graze/error.h"
 #include "graze/export.h"
 
@@ -15,12 +16,27 @@ extern "C" {
  * it. */
 typedef struct graze_scene graze_scene;
 
+/* Which reflectance model the rough reflection of materials has, in place of GRAZE_BRDF_GMD. */
+typedef struct graze_model_choice {
+    const char *material; /* the plastic, metal, plastic2 or metal2 of this name, and its aliases; null: all of them */
+    graze_brdf_model model;
+} graze_model_choice;
+
+/* How a scene is to be built; all 0: as it stands in the description. */
+typedef struct graze_scene_settings {
+    int threads;                      /* that the building itself may use, 0 for 1; the scene does not depend on it */
+    const graze_model_choice *models; /* a material's own name wins over an alias's original, that over null; else the
+                                         last */
+    size_t model_count;
+} graze_scene_settings;
+
 /* Reads `count` descriptions as one, in order: each a .rad file, `!command`, or `-` for standard input; graze-scene(5)
- * says what they may hold. `threads` (at least 1) bounds the threads that the building itself uses; the scene does not
- * depend on it. Returns GRAZE_OK and the scene in *scene, to be freed with graze_scene_destroy; or GRAZE_INPUT_ERROR or
- * GRAZE_SYSTEM_ERROR, with every mistake reported with its file, line and column, and *scene null. */
-GRAZE_API graze_status graze_scene_load(graze_scene **scene, const char *const *descriptions, size_t count, int threads,
-                                        const graze_report *report);
+ * says what they may hold. Null stands for settings of 0. A model chosen for a name that no material has, or one of
+ * another kind, is an error. Returns GRAZE_OK and the scene in *scene, to be freed with graze_scene_destroy; or
+ * GRAZE_INPUT_ERROR or GRAZE_SYSTEM_ERROR, with every mistake reported with its file, line and column, and *scene null.
+ */
+GRAZE_API graze_status graze_scene_load(graze_scene **scene, const char *const *descriptions, size_t count,
+                                        const graze_scene_settings *settings, const graze_report *report);
 
 /* Frees the scene. Null is let pass. */
 GRAZE_API void graze_scene_destroy(graze_scene *scene);

@@ -13,11 +13,13 @@
 extern "C" {
 #endif
 
-/* How light from lights is found. All three converge to the same answer. */
+/* How light from lights is found. The first three converge to the same answer. */
 typedef enum graze_strategy {
-    GRAZE_STRATEGY_MIS = 0, /* light samples and reflected directions, combined by multiple importance sampling */
-    GRAZE_STRATEGY_LIGHT,   /* Eq. 18 alone wherever a light can be sampled */
-    GRAZE_STRATEGY_BRDF,    /* Eq. 16 alone */
+    GRAZE_STRATEGY_MIS = 0,    /* light samples and reflected directions, combined by multiple importance sampling */
+    GRAZE_STRATEGY_LIGHT,      /* Eq. 18 alone wherever a light can be sampled */
+    GRAZE_STRATEGY_BRDF,       /* Eq. 16 alone */
+    GRAZE_STRATEGY_UNWEIGHTED, /* Eq. 16 without its weights, for comparison: wrong, see graze_surface_sample_unweighted
+                                */
 } graze_strategy;
 
 /* What is to be computed of a ray. */

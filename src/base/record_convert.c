@@ -8,7 +8,9 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/record_file.h"
 #include "base/record_scan.h"
+#include "base/record_words.h"
 #include "base/text.h"
 
 /* --- Errors ------------------------------------------------------------------------------------------------------ */
@@ -99,7 +101,9 @@ size_t record_scan_words(const char **at, const char *limit, double *values, siz
 
 static const double *convert_words(record_chunk *c, double *room) {
     const char *at = c->bytes, *limit = c->bytes + c->length;
-    size_t numbers = c->count * c->fields, good = record_scan_words(&at, limit, room, numbers);
+    size_t numbers = c->count * c->fields;
+    size_t good = record_words_available() ? record_words_scan(&at, limit, room, numbers)
+                                           : record_scan_words(&at, limit, room, numbers);
     if (good < numbers)
         record_set_word_error(c, good / c->fields, at, limit);
     return room;
@@ -113,7 +117,8 @@ static const double *convert_floats(record_chunk *c, double *room) {
     return room;
 }
 
-const float *record_floats(const record_chunk *c) {
+const float *record_floats(record_chunk *c) {
+    record_file_load(c);
     return (const float *)(const void *)c->bytes;
 }
 
@@ -122,6 +127,7 @@ const double *record_doubles(record_chunk *c, double *room) {
         return convert_words(c, room);
     if (c->format == RECORD_FLOAT)
         return convert_floats(c, room);
+    record_file_load(c);
     const double *values = (const double *)(const void *)c->bytes;
     set_number_error(c, record_finite_doubles(values, c->count * c->fields));
     return values;

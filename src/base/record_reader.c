@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/record_convert.h"
+#include "base/record_file.h"
 #include "base/record_scan.h"
 #include "base/text.h"
 
@@ -24,6 +25,7 @@ struct record_reader {
     record_format format;
     size_t fields;
     size_t record_size; /* 0: of ASCII */
+    record_file file;   /* what need not be read here */
     const graze_report *report;
     int cancel[2]; /* a pipe; a byte in it ends a wait */
 
@@ -53,7 +55,25 @@ static char *allocate(size_t room) {
     return memory;
 }
 
-static size_t number_size(record_format format) {
+static void set_out_of_memory(record_error *e) {
+    record_note(e, "out of memory");
+    e->status = GRAZE_SYSTEM_ERROR;
+    e->error_number = ENOMEM;
+}
+
+char *record_chunk_reserve(record_chunk *c, size_t room) {
+    if (c->capacity < room) {
+        free(c->memory);
+        c->memory = allocate(room);
+        c->capacity = c->memory ? room : 0;
+    }
+    if (c->memory)
+        return c->memory + FRONT;
+    set_out_of_memory(&c->error);
+    return NULL;
+}
+
+size_t record_number_size(record_format format) {
     return format == RECORD_FLOAT ? sizeof(float) : format == RECORD_DOUBLE ? sizeof(double) : 0;
 }
 
@@ -66,7 +86,7 @@ graze_status record_reader_open(record_reader **reader, int descriptor, const ch
     *r = (record_reader){.descriptor = descriptor,
                          .format = format,
                          .fields = (size_t)fields,
-                         .record_size = (size_t)fields * number_size(format),
+                         .record_size = (size_t)fields * record_number_size(format),
                          .report = report,
                          .cancel = {-1, -1},
                          .room = ROOM,
@@ -84,6 +104,8 @@ graze_status record_reader_open(record_reader **reader, int descriptor, const ch
         status = report_out_of_memory(report);
     else if (fcntl(descriptor, F_GETFD) < 0 || pipe(r->cancel) != 0) /* a closed one's number is not the pipe's */
         status = report_system_error(report, &(place){.file = name}, "cannot read");
+    if (status == GRAZE_OK && r->record_size)
+        record_file_find(&r->file, descriptor, r->record_size);
     if (status)
         record_reader_close(r);
     else
@@ -188,17 +210,12 @@ static size_t count_records(record_reader *r, size_t capacity) {
 static bool hand_over(record_reader *r, record_chunk *c, size_t cut) {
     size_t taken = cut - r->begin, left = r->end - cut;
     bool exchange = left < taken;
-    size_t needed = exchange ? r->room : taken;
-    if (c->capacity < needed) {
-        free(c->memory);
-        c->memory = allocate(needed);
-        c->capacity = c->memory ? needed : 0;
-        if (!c->memory)
-            return false;
-    }
+    char *room = record_chunk_reserve(c, exchange ? r->room : taken);
+    if (!room)
+        return false;
     if (exchange) {
         char *memory = r->memory;
-        memcpy(c->memory + FRONT, memory + cut, left);
+        memcpy(room, memory + cut, left);
         r->memory = c->memory;
         c->memory = memory;
         c->bytes = memory + r->begin;
@@ -206,18 +223,12 @@ static bool hand_over(record_reader *r, record_chunk *c, size_t cut) {
         r->begin = FRONT;
         r->end = FRONT + left;
     } else {
-        memcpy(c->memory + FRONT, r->memory + r->begin, taken);
-        c->bytes = c->memory + FRONT;
+        memcpy(room, r->memory + r->begin, taken);
+        c->bytes = room;
         r->begin = cut;
     }
     c->length = taken;
     return true;
-}
-
-static void set_out_of_memory(record_error *e) {
-    record_note(e, "out of memory");
-    e->status = GRAZE_SYSTEM_ERROR;
-    e->error_number = ENOMEM;
 }
 
 /* Moves the place, and what has been counted, on to `cut`. */
@@ -239,7 +250,6 @@ static void give(record_reader *r, record_chunk *c, size_t count) {
         advance_to(r, cut);
     if (!hand_over(r, c, cut)) {
         r->finished = true;
-        set_out_of_memory(&c->error);
         return;
     }
     c->count = count;
@@ -261,17 +271,27 @@ static void set_words_error(record_reader *r, record_chunk *c) {
     c->bytes = NULL;
 }
 
+void record_note_end(record_error *e, uint64_t record, int error, size_t bytes, size_t record_size) {
+    unsigned long long number = record;
+    if (!error) {
+        record_note(e, "record %llu is cut short: %zu of %zu bytes", number, bytes, record_size);
+        return;
+    }
+    record_note(e, "record %llu: cannot read", number);
+    e->status = GRAZE_SYSTEM_ERROR;
+    e->error_number = error;
+}
+
 static void set_cut_short(record_reader *r, record_chunk *c) {
-    unsigned long long record = r->record + 1;
     if (r->record_size) {
         if (r->end > r->begin)
-            record_note(&c->error, "record %llu is cut short: %zu of %zu bytes", record, r->end - r->begin,
-                        r->record_size);
+            record_note_end(&c->error, r->record + 1, 0, r->end - r->begin, r->record_size);
         return;
     }
     if (r->words == 0)
         return;
-    record_note(&c->error, "record %llu is cut short: %zu of %zu numbers", record, r->words, r->fields);
+    record_note(&c->error, "record %llu is cut short: %zu of %zu numbers", (unsigned long long)r->record + 1, r->words,
+                r->fields);
     /* The input ends before the blank that was put there. */
     advance_to(r, r->end - 1);
     record_note_place(&c->error, r->line, r->column);
@@ -287,9 +307,7 @@ static void stop(record_reader *r, record_chunk *c) {
         record_note(&c->error, "record %llu is longer than %zu bytes", (unsigned long long)r->record + 1, r->room);
         record_note_place(&c->error, r->line, r->column);
     } else if (r->error) {
-        record_note(&c->error, "record %llu: cannot read", (unsigned long long)r->record + 1);
-        c->error.status = GRAZE_SYSTEM_ERROR;
-        c->error.error_number = r->error;
+        record_note_end(&c->error, r->record + 1, r->error, 0, r->record_size);
     } else {
         set_cut_short(r, c);
     }
@@ -300,6 +318,8 @@ static void skip_blanks(record_reader *r) {
     size_t begin = r->begin;
     while (begin < r->scanned && text_is_blank(r->memory[begin]))
         begin++;
+    if (begin == r->begin)
+        return;
     advance_to(r, begin);
     r->begin = begin;
 }
@@ -318,12 +338,26 @@ static size_t plan_read(record_reader *r, size_t capacity) {
     return needed < room ? needed : room;
 }
 
+/* The next records of a regular file, if there are such, with nothing read but whether to go on. */
+static bool give_unread(record_reader *r, record_chunk *c, size_t capacity) {
+    if (r->file.at == r->file.end)
+        return false;
+    is_readable(r, false);
+    if (r->finished || !record_file_give(&r->file, r->descriptor, c, capacity))
+        return false;
+    r->record += c->count;
+    return true;
+}
+
 bool record_read(record_reader *r, record_chunk *c, size_t capacity) {
     c->first = r->record;
     c->count = c->length = 0;
+    c->unread = false;
     c->error.status = GRAZE_OK;
     c->format = r->format;
     c->fields = r->fields;
+    if (!r->finished && give_unread(r, c, capacity))
+        return true;
     size_t count = 0;
     while (!r->finished) {
         count = count_records(r, capacity);

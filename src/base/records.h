@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/types.h>
 
 #include "base/report.h"
 
@@ -20,7 +21,8 @@ typedef struct record_error {
 } record_error;
 
 /* A chunk: some whole records as they came, before anyone has looked at their numbers: reading is the one step that
- * cannot be shared out among threads, so it does no more than find where records end. Begins as {0}. */
+ * cannot be shared out among threads, so it does no more than find where records end. Where that is known beforehand,
+ * for binary records of a regular file, they are not even read yet. Begins as {0}. */
 typedef struct record_chunk {
     uint64_t first;     /* number of the first record, from 0 */
     size_t count;       /* of records */
@@ -34,6 +36,10 @@ typedef struct record_chunk {
     size_t column;
     char *memory;
     size_t capacity;
+
+    bool unread; /* still to be read from here */
+    int descriptor;
+    off_t offset;
 } record_chunk;
 void record_chunk_free(record_chunk *);
 
@@ -56,11 +62,11 @@ bool record_read(record_reader *, record_chunk *, size_t capacity);
 void record_reader_cancel(record_reader *);
 
 /* A chunk's numbers, record after record: where they are, or converted into `room` (for count * fields doubles).
- * Where a word is no number, or a number is not finite, the chunk is cut down to the records before and the error
- * noted. */
+ * Where a word is no number, a number is not finite, or a file's records cannot be read, the chunk is cut down to the
+ * records before and the error noted. */
 const double *record_doubles(record_chunk *, double *room);
-/* A chunk's numbers where they are, for RECORD_FLOAT: they may not be finite. */
-const float *record_floats(const record_chunk *);
+/* A chunk's numbers where they are, for RECORD_FLOAT: they may not be finite. Errors in reading are noted as above. */
+const float *record_floats(record_chunk *);
 /* What is wrong with a record whose number `index`, from 0, is not finite, for record_set_error. */
 void record_describe_not_finite(char message[RECORD_MESSAGE_SIZE], size_t index);
 

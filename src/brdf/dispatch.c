@@ -10,25 +10,43 @@ static const brdf_kernels *const tables[] = {
 #endif
 };
 
-/* The last table that this processor can run. Only reads what the C runtime found out before main(). */
-static int last_table(void) {
+/* Only reads what the C runtime found out before main(). */
+static brdf_processor this_processor(void) {
 #ifdef BRDF_X86_64
-    int avx2 = (__builtin_cpu_supports("avx2") != 0) & (__builtin_cpu_supports("fma") != 0);
-    int avx512 = (__builtin_cpu_supports("avx512f") != 0) & (__builtin_cpu_supports("avx512dq") != 0) &
-                 (__builtin_cpu_supports("avx512vl") != 0);
-    return avx2 + (avx2 & avx512);
+    return (brdf_processor){
+        .avx2 = __builtin_cpu_supports("avx2"),
+        .fma = __builtin_cpu_supports("fma"),
+        .avx512f = __builtin_cpu_supports("avx512f"),
+        .avx512dq = __builtin_cpu_supports("avx512dq"),
+        .avx512vl = __builtin_cpu_supports("avx512vl"),
+    };
 #else
-    return 0;
+    return (brdf_processor){.avx2 = false};
 #endif
 }
 
-int brdf_kernels_available(const brdf_kernels *available[BRDF_KERNELS_MOST]) {
-    int last = last_table();
-    for (int i = 0; i <= last; ++i)
-        available[i] = tables[i];
-    return last + 1;
+const brdf_kernels *brdf_kernels_for(brdf_processor processor) {
+#ifdef BRDF_X86_64
+    bool avx2 = processor.avx2 && processor.fma;
+    if (avx2 && processor.avx512f && processor.avx512dq && processor.avx512vl)
+        return &brdf_kernels_avx512;
+    if (avx2)
+        return &brdf_kernels_avx2;
+#else
+    (void)processor;
+#endif
+    return &brdf_kernels_baseline;
 }
 
 const brdf_kernels *brdf_kernels_best(void) {
-    return tables[last_table()];
+    return brdf_kernels_for(this_processor());
+}
+
+int brdf_kernels_available(const brdf_kernels *available[BRDF_KERNELS_MOST]) {
+    const brdf_kernels *best = brdf_kernels_best();
+    int count = 0;
+    do
+        available[count] = tables[count];
+    while (tables[count++] != best);
+    return count;
 }

@@ -15,6 +15,7 @@
 #ifndef BRDF_KERNELS_H
 #define BRDF_KERNELS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "brdf/blocks.h"
@@ -66,11 +67,19 @@ extern const brdf_kernels brdf_kernels_avx2;   /* AVX2 and FMA */
 extern const brdf_kernels brdf_kernels_avx512; /* AVX-512 F, DQ, VL, and FMA */
 #endif
 
-/* All tables that this processor can run, the best one last; returns their number. */
+/* What the choice depends on: all false where the processor is not of the x86-64 kind. */
+typedef struct brdf_processor {
+    bool avx2, fma, avx512f, avx512dq, avx512vl;
+} brdf_processor;
+
+/* The best table that such a processor can run. */
+const brdf_kernels *brdf_kernels_for(brdf_processor);
+
+/* The best one for this processor. */
+const brdf_kernels *brdf_kernels_best(void);
+
+/* All that this processor can run, the best one last; returns their number. */
 enum { BRDF_KERNELS_MOST = 3 };
 int brdf_kernels_available(const brdf_kernels *[BRDF_KERNELS_MOST]);
-
-/* The best one. */
-const brdf_kernels *brdf_kernels_best(void);
 
 #endif

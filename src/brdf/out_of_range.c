@@ -6,8 +6,6 @@
 
 #include "brdf/pair_kernels.h"
 
-static const double large_cosine = 0x1p400;
-
 /* exp(-3750) is 2^-5410; the largest factor before it, with the least roughness and cosine there is, is 2^4333. */
 static const double out_of_range_limit = 3750;
 
@@ -39,10 +37,10 @@ static graze_vec3 scale_vector(graze_vec3 a, int power) {
     return (graze_vec3){ldexp(a.x, power), ldexp(a.y, power), ldexp(a.z, power)};
 }
 
-/* False where nothing is reflected: a cosine of absurd size. */
+/* False where nothing is reflected: a cosine too large for a double. */
 static bool prepare_pair(scaled_pair *pair, graze_vec3 l, graze_vec3 v) {
     double hz = l.z + v.z;
-    if (!(hz < large_cosine))
+    if (!(hz <= DBL_MAX))
         return false;
     int power;
     frexp(hz, &power);
@@ -141,7 +139,7 @@ static double scaled_weight_of_model(const graze_brdf *brdf, const scaled_pair *
     h.z2 = loose_square(exact_positive_sum(pair->l.z, pair->v.z));
     double lz = l.z, vz = v.z;
     int power = normalise_cosines(brdf->model, &lz, &vz);
-    return scale_result(weight_of_model(brdf->model, weight, &h, lz, vz).hi, -2 * (pair->scale + length) - power);
+    return scale_result(weight_of_model(brdf->model, weight, &h, lz, vz), -2 * (pair->scale + length) - power);
 }
 
 double brdf_out_of_range_ward_weight(const graze_brdf *brdf, graze_vec3 l, graze_vec3 v) {
@@ -158,5 +156,5 @@ double brdf_out_of_range_pair_weight(const graze_brdf *brdf, graze_vec3 l, graze
     if (!prepare_pair(&pair, l, v))
         return 0;
     double_double weight = brdf_out_of_range_mean_weight(pair.l, pair.v);
-    return brdf->model == GRAZE_BRDF_GMD ? fmin(weight.hi, 1) : scaled_weight_of_model(brdf, &pair, weight, l, v);
+    return brdf->model == GRAZE_BRDF_GMD ? weight.hi : scaled_weight_of_model(brdf, &pair, weight, l, v);
 }

@@ -78,9 +78,9 @@ BRDF_INLINE double_double loose_positive_sum(double_double a, double_double b) {
 }
 
 BRDF_INLINE lobe_constants lobe_constants_of(const graze_brdf *brdf) {
-    const double_double pi = {brdf_pi, brdf_pi_low};
     double ax = brdf->alpha_x, ay = brdf->alpha_y;
-    double_double pi_alphas = loose_multiply(pi, exact_product(ax, ay)), reciprocal = dd_reciprocal(pi_alphas);
+    double_double pi_alphas = loose_multiply((double_double){brdf_pi, brdf_pi_low}, exact_product(ax, ay));
+    double_double reciprocal = dd_reciprocal(pi_alphas);
     lobe_constants k;
     k.s = sqrt(reciprocal.hi);
     double_double s2 = exact_product(k.s, k.s), inverse_s = loose_multiply((double_double){k.s, 0}, pi_alphas);
@@ -251,12 +251,11 @@ BRDF_INLINE double pair_density_kernel(graze_brdf_model model, const lobe_consta
     return within_domain(&h, has_ordinary_cosines(&h) & w.certain, ordinary_result(f));
 }
 
-/* weight x f_model/f_new = weight x hz^2/(4 C (1 + tau^2)) */
-BRDF_INLINE double_double weight_of_model(graze_brdf_model model, double_double weight, const half_vector *h, double lz,
-                                          double vz) {
+/* weight x f_model/f_new = weight x hz^2/(4 C (1 + tau^2)), rounded */
+BRDF_INLINE double weight_of_model(graze_brdf_model model, double_double weight, const half_vector *h, double lz,
+                                   double vz) {
     double_double divisor = dd_multiply(cosine_factor(model, lz, vz), h->square);
-    double_double quotient = dd_divide(dd_multiply(weight, dd_multiply(h->z2, h->z2)), divisor);
-    return (double_double){.25 * quotient.hi, .25 * quotient.lo};
+    return .25 * dd_divide(dd_multiply(weight, dd_multiply(h->z2, h->z2)), divisor).hi;
 }
 
 /* (15) */
@@ -264,20 +263,18 @@ BRDF_INLINE double ward_weight_kernel(graze_brdf_model model, const lobe_constan
     (void)k;
     half_vector h = half_vector_of(l, v);
     double_double weight = dd_divide((double_double){2 * l.z, 0}, h.z);
-    if (model != GRAZE_BRDF_GMD)
-        weight = weight_of_model(model, weight, &h, l.z, v.z);
-    return within_domain(&h, has_ordinary_cosines(&h), weight.hi);
+    double result = model == GRAZE_BRDF_GMD ? weight.hi : weight_of_model(model, weight, &h, l.z, v.z);
+    return within_domain(&h, has_ordinary_cosines(&h), result);
 }
 
 BRDF_INLINE double pair_weight_kernel(graze_brdf_model model, const lobe_constants *k, graze_vec3 l, graze_vec3 v) {
     (void)k;
     half_vector h = half_vector_of(l, v);
     mean_weight w = mean_weight_of_pair(&h, l.z, v.z);
-    double_double weight = w.mean;
-    weight.hi = weight.hi < 1 ? weight.hi : 1; /* it may be rounded to an ulp more, where it is 1 */
-    if (model != GRAZE_BRDF_GMD)
-        weight = weight_of_model(model, weight, &h, l.z, v.z);
-    return within_domain(&h, has_ordinary_cosines(&h) & w.certain, weight.hi);
+    /* W itself is at most 1, also when rounded, as good as it is: with a = lz/hz, 1 - W is 1 - a or
+     * ((1 - 2a)^2 + tau^2)/(3 - 4a - tau^2). */
+    double result = model == GRAZE_BRDF_GMD ? w.mean.hi : weight_of_model(model, w.mean, &h, l.z, v.z);
+    return within_domain(&h, has_ordinary_cosines(&h) & w.certain, result);
 }
 
 #endif

@@ -1,7 +1,6 @@
 /* Reads the materials of scene files, with Radiance's checks of their arguments. */
 #include "material/from_primitive.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -95,6 +94,10 @@ static graze_status read_anisotropic(graze_material *m, const rad_primitive *p, 
     warn_if_unphysical(p, report);
     take_reals(m, p, kind);
     return read_orientation(m, p, report);
+}
+
+bool material_is_reflector(rad_type type) {
+    return type == RAD_PLASTIC || type == RAD_METAL || type == RAD_PLASTIC2 || type == RAD_METAL2;
 }
 
 graze_status material_from_primitive(graze_material *m, const rad_primitive *p, const graze_report *report) {

@@ -2,8 +2,13 @@
 #ifndef MATERIAL_FROM_PRIMITIVE_H
 #define MATERIAL_FROM_PRIMITIVE_H
 
+#include <stdbool.h>
+
 #include "graze/material.h"
 #include "rad/scene_file.h"
+
+/* Whether the type is `plastic`, `metal`, `plastic2` or `metal2`. */
+bool material_is_reflector(rad_type);
 
 /* Reads `plastic`, `metal`, `plastic2` and `metal2`. Wrong arguments and all other types of material are errors.
  * Parameters with which a surface may reflect more light than it receives are warned of and taken as they are, as in

@@ -36,6 +36,16 @@ graze_surface_sample graze_surface_sample_lobe(const graze_surface *surface, gra
     return lobe == GRAZE_LOBE_GLOSSY ? sample_glossy(surface, s, t, u) : sample_mirror(surface);
 }
 
+graze_surface_sample graze_surface_sample_unweighted(const graze_surface *surface, double s, double t) {
+    if (surface->specular_lobe != GRAZE_LOBE_GLOSSY || !(surface->local_view.z > 0))
+        return reject(surface);
+    graze_brdf_sample sample = graze_brdf_sample_ward(&surface->lobe, surface->local_view, s, t);
+    if (!(sample.density > 0))
+        return reject(surface);
+    frame f = material_frame(surface);
+    return (graze_surface_sample){frame_to_world(&f, sample.l), surface->specular, sample.density};
+}
+
 double graze_surface_density(const graze_surface *s, graze_lobe lobe, graze_vec3 l) {
     frame f = material_frame(s);
     vec3 local = frame_to_local(&f, l);

@@ -6,10 +6,12 @@
 #include "base/angle.h"
 #include "material/from_primitive.h"
 #include "scene/emitter.h"
+#include "scene/model_choice.h"
 
 /* Materials that the description's primitives have become, and errors met on the way: one pass reports all. */
 typedef struct builder {
     graze_scene *scene;
+    const graze_scene_settings *settings;
     const graze_report *report;
     int *material_of; /* by primitive: index into scene->materials, or -1 */
     graze_status status;
@@ -56,6 +58,8 @@ static int add_material(builder *b, int primitive) {
         status = emitter_to_light(&material->light, p, b->report);
     else
         status = material_from_primitive(&material->reflector, p, b->report);
+    if (!material->emits)
+        material->reflector.model = scene_choose_model(b->settings, p);
     if (status == GRAZE_OK && p->modifier != RAD_VOID) {
         const rad_primitive *pattern = &scene->primitives[p->modifier];
         status = rad_primitive_error(b->report, pattern, "modifies %s %s, which is not supported yet",
@@ -224,23 +228,27 @@ static graze_status allocate(builder *b, size_t count) {
     return GRAZE_OK;
 }
 
-graze_status graze_scene_load(graze_scene **out, const char *const *descriptions, size_t count, int threads,
-                              const graze_report *report) {
+graze_status graze_scene_load(graze_scene **out, const char *const *descriptions, size_t count,
+                              const graze_scene_settings *settings, const graze_report *report) {
+    static const graze_scene_settings as_described = {0};
     *out = NULL;
     graze_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return report_out_of_memory(report);
-    builder b = {.scene = scene, .report = report, .status = GRAZE_OK};
+    builder b = {.scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
     b.status = rad_scene_read(&scene->description, descriptions, count, report);
     if (b.status == GRAZE_OK) {
         size_t primitive_count;
         scene->primitives = rad_scene_primitives(scene->description, &primitive_count);
-        b.status = allocate(&b, primitive_count);
+        b.status = scene_check_models(b.settings, scene->primitives, primitive_count, report);
+        if (b.status == GRAZE_OK)
+            b.status = allocate(&b, primitive_count);
         if (b.status == GRAZE_OK)
             add_surfaces(&b, primitive_count);
     }
     if (b.status == GRAZE_OK)
-        b.status = geometry_build(&scene->geometry, scene->shapes, scene->surface_count, threads, report);
+        b.status = geometry_build(&scene->geometry, scene->shapes, scene->surface_count,
+                                  b.settings->threads > 1 ? b.settings->threads : 1, report);
     free(b.material_of);
     if (b.status != GRAZE_OK) {
         graze_scene_destroy(scene);

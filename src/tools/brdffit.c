@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "tools/brdffit/findings.h"
 #include "tools/brdffit/plot.h"
+#include "tools/common/model_name.h"
 #include "tools/common/tool.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -156,7 +157,7 @@ static void warn_of_parameter(const findings *r, const fit_result *f, size_t par
             first = k;
         }
     }
-    const char *model = findings_model_name(f->model), *name = parameters[parameter].name;
+    const char *model = model_name(f->model), *name = parameters[parameter].name;
     if (count > 0 && channels == 1)
         report_warning(report, NULL, "%s: %s is %s", model, name, weakness);
     else if (count > 0)
@@ -165,7 +166,7 @@ static void warn_of_parameter(const findings *r, const fit_result *f, size_t par
 }
 
 static void warn_of_quality(const fit_result *f, const char *where, const fit_quality *q, const graze_report *report) {
-    const char *model = findings_model_name(f->model);
+    const char *model = model_name(f->model);
     if (!q->converged)
         report_warning(report, NULL, "%s%s: the least squares did not converge", model, where);
     if (q->condition > FIT_CONDITION_MAX)

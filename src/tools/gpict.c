@@ -129,6 +129,7 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
                                 .layers = needs_layers(o),
                                 .threads = o->render.threads,
                                 .progress = o->progress};
+    const graze_scene_settings build = render_options_scene(&o->render);
     graze_trace_settings settings;
     graze_scene *scene = NULL;
     image *result = NULL;
@@ -142,8 +143,7 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
         status = tool_check_scenes(arguments, false, report);
     if (status == GRAZE_OK) {
         rad_view_fit(&picture.view, &picture.pixel_aspect, &picture.width, &picture.height);
-        status =
-            graze_scene_load(&scene, arguments->operands, (size_t)arguments->operand_count, picture.threads, report);
+        status = graze_scene_load(&scene, arguments->operands, (size_t)arguments->operand_count, &build, report);
     }
     if (status == GRAZE_OK)
         status = picture_render(&result, scene, &settings, &picture, &unconverged, report);

@@ -129,9 +129,9 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
     job j = {.options = user};
     const graze_report quiet = tool_report(full_report, j.options->render.warnings), *report = &quiet;
     graze_status status = prepare(&j, arguments, report);
+    const graze_scene_settings build = render_options_scene(&j.options->render);
     if (status == GRAZE_OK)
-        status = graze_scene_load(&j.scene, arguments->operands, (size_t)arguments->operand_count,
-                                  j.options->render.threads, report);
+        status = graze_scene_load(&j.scene, arguments->operands, (size_t)arguments->operand_count, &build, report);
     if (status == GRAZE_OK)
         status = answer_input(&j, arguments, report);
     graze_scene_destroy(j.scene);

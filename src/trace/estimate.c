@@ -2,6 +2,7 @@
 #include "trace/estimate.h"
 
 #include "base/vector.h"
+#include "trace/path.h"
 
 /* The first look at the error comes after this many samples a replicate; then after every doubling. */
 #define FIRST_LOOK 2u
@@ -95,7 +96,7 @@ static double samples_to_believe(const graze_trace_settings *s, const replicates
     if (r->luck < ESTIMATE_NOISY)
         return 0;
     bool search = r->luck == ESTIMATE_SEARCH;
-    if (value == 0 && search && s->strategy == GRAZE_STRATEGY_BRDF && s->floor == 0)
+    if (value == 0 && search && !path_samples_lights(s) && s->floor == 0)
         return EMPTY_SEARCH_BELIEVED;
     if (value == 0)
         return ZEROS_BELIEVED;

@@ -131,9 +131,12 @@ static double power_heuristic(double density, double other) {
     return 1 / (1 + ratio * ratio);
 }
 
-/* Whether lights are looked for by this technique, in general. */
+bool path_samples_lights(const graze_trace_settings *settings) {
+    return settings->strategy == GRAZE_STRATEGY_MIS || settings->strategy == GRAZE_STRATEGY_LIGHT;
+}
+
 static bool samples_lights(const path_context *context) {
-    return context->settings->strategy != GRAZE_STRATEGY_BRDF;
+    return path_samples_lights(context->settings);
 }
 
 /* Whether the other strategies would sample glows here, where a path that ends must not look for more than they do. */
@@ -391,6 +394,23 @@ static bool is_search(const path *p, graze_lobe lobe) {
     return lobe != GRAZE_LOBE_MIRROR && (!samples_lights(p->context) || p->context->scene->has_mirrors);
 }
 
+/* A rejected direction is drawn again; about one of two is kept, so that the end is never reached. */
+static graze_surface_sample draw_unweighted(path *p, const graze_surface *s, const double random[2]) {
+    graze_surface_sample sample = graze_surface_sample_unweighted(s, random[0], random[1]);
+    for (int i = 0; i < 100 && rgb_is_black(sample.weight); i++) {
+        double again[2];
+        sampler_2d(p->sampler, again);
+        sample = graze_surface_sample_unweighted(s, again[0], again[1]);
+    }
+    return sample;
+}
+
+static graze_surface_sample draw_direction(path *p, const graze_surface *s, graze_lobe lobe, const double random[3]) {
+    if (lobe == GRAZE_LOBE_GLOSSY && p->context->settings->strategy == GRAZE_STRATEGY_UNWEIGHTED)
+        return draw_unweighted(p, s, random);
+    return graze_surface_sample_lobe(s, lobe, random[0], random[1], random[2]);
+}
+
 /* Draws the lobe to go on with and turns the path into it. False: the path ends here. */
 static bool reflect(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice, vec3 *direction) {
     if (choice.diffuse + choice.specular == 0)
@@ -403,7 +423,7 @@ static bool reflect(path *p, const vertex *v, const light_receiver *receiver, lo
     graze_lobe lobe = diffuse ? GRAZE_LOBE_DIFFUSE : v->shading.specular_lobe;
     bool ends = diffuse ? choice.diffuse_ends : choice.specular_ends;
     double scale = 1 / (diffuse ? choice.diffuse : choice.specular);
-    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, random[0], random[1], random[2]);
+    graze_surface_sample sample = draw_direction(p, &v->shading, lobe, random);
     /* The weight of a diffuse sample is its reflectance: for `light`s that of the diffuse part alone. */
     rgb onward = ends ? rgb_gray(0) : diffuse ? v->ambient : sample.weight;
     if (rgb_is_black(sample.weight) && rgb_is_black(onward))

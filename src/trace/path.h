@@ -12,6 +12,9 @@ typedef struct path_context {
     const graze_trace_settings *settings;
 } path_context;
 
+/* Whether the strategy looks for lights at all, or leaves them to reflections. */
+bool path_samples_lights(const graze_trace_settings *);
+
 /* What a ray meets: nothing, a source, or a surface. */
 typedef struct path_hit {
     int surface;                   /* -1: none */

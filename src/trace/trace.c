@@ -23,7 +23,7 @@ graze_status graze_trace_check(const graze_trace_settings *s, const graze_report
     rgb av = s->ambient_value;
     if (s->quantity < GRAZE_RADIANCE || s->quantity > GRAZE_IRRADIANCE)
         return report_error(report, NULL, "unknown quantity %d", (int)s->quantity);
-    if (s->strategy < GRAZE_STRATEGY_MIS || s->strategy > GRAZE_STRATEGY_BRDF)
+    if (s->strategy < GRAZE_STRATEGY_MIS || s->strategy > GRAZE_STRATEGY_UNWEIGHTED)
         return report_error(report, NULL, "unknown strategy %d", (int)s->strategy);
     if (s->reflection_limit < -REFLECTIONS || s->reflection_limit > REFLECTIONS)
         return report_error(report, NULL, "the limit of reflections must be in %d .. %d", -REFLECTIONS, REFLECTIONS);

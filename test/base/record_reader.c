@@ -519,6 +519,111 @@ static FILE *file_with(const char *before, char byte, int count, const char *aft
     return file;
 }
 
+/* Doubles 0, 1, 2 ... */
+static FILE *file_of_doubles(size_t count) {
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    for (size_t i = 0; i < count; i++)
+        fwrite(&(double){(double)i}, sizeof(double), 1, file);
+    fflush(file);
+    return file;
+}
+
+static void expect_doubles(record_chunk *c, size_t first, size_t count) {
+    const double *values = record_doubles(c, NULL);
+    assert_int_equal(c->first, first);
+    assert_int_equal(c->count, count);
+    for (size_t i = 0; i < 2 * count; i++)
+        if (!(values[i] == (double)(2 * (first + 1) + i)))
+            fail_msg("number %zu from record %zu on is %g", i, first, values[i]);
+}
+
+/* Chunks of a file can be read in any order; what it gets while it is read belongs to it. */
+static void test_binary_file(void **state) {
+    (void)state;
+    enum { CHUNKS = 4, RECORDS = 300, LAST = 200, ALL = (CHUNKS - 1) * RECORDS + LAST };
+    FILE *file = file_of_doubles(2 * (1 + ALL) + 1);
+    fixture f;
+    lseek(fileno(file), 16, SEEK_SET);
+    open_descriptor(&f, dup(fileno(file)), RECORD_DOUBLE, 2);
+    record_chunk chunks[CHUNKS] = {{0}};
+    for (size_t i = 0; i < CHUNKS; i++) {
+        assert_true(record_read(f.reader, &chunks[i], RECORDS));
+        assert_int_equal(lseek(fileno(file), 0, SEEK_CUR), 16 * (1 + (i < 3 ? (i + 1) * RECORDS : ALL)));
+    }
+    for (size_t i = CHUNKS; i-- > 0;) {
+        expect_doubles(&chunks[i], RECORDS * i, i < 3 ? RECORDS : LAST);
+        record_chunk_free(&chunks[i]);
+    }
+    double more[2] = {2 * (1 + ALL) + 1};
+    assert_int_equal(pwrite(fileno(file), more, 12, 16 * (1 + ALL) + 8), 12);
+    assert_true(record_read(f.reader, &f.chunk, RECORDS));
+    expect_doubles(&f.chunk, ALL, 1);
+    assert_int_equal(receive(&f, RECORDS), GRAZE_INPUT_ERROR);
+    assert_string_equal(f.c.text, "in: record 1102 is cut short: 4 of 16 bytes");
+    end(&f);
+    fclose(file);
+}
+
+/* Chunks of few records, and of many again. */
+static void test_capacities_of_file(void **state) {
+    (void)state;
+    static const size_t capacities[] = {300, 300, 1, 2, 300, 1, 300};
+    FILE *file = file_of_doubles(3000);
+    lseek(fileno(file), 16, SEEK_SET);
+    fixture f;
+    open_descriptor(&f, dup(fileno(file)), RECORD_DOUBLE, 2);
+    size_t at = 0;
+    for (size_t i = 0; i < sizeof capacities / sizeof *capacities; i++) {
+        assert_true(record_read(f.reader, &f.chunk, capacities[i]));
+        expect_doubles(&f.chunk, at, capacities[i]);
+        at += capacities[i];
+    }
+    end(&f);
+    fclose(file);
+}
+
+/* A file that became shorter, and one that cannot be read. */
+static void test_failing_file(void **state) {
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        FILE *file = file_of_doubles(40);
+        rewind(file);
+        fixture f;
+        open_descriptor(&f, dup(fileno(file)), RECORD_DOUBLE, 4);
+        assert_true(record_read(f.reader, &f.chunk, 1000));
+        if (k == 2) {
+            int directory = open("/tmp", O_RDONLY);
+            assert_int_equal(dup2(directory, f.output), f.output);
+            close(directory);
+        } else {
+            assert_int_equal(ftruncate(f.output, k ? 104 : 96), 0);
+        }
+        record_doubles(&f.chunk, NULL);
+        assert_int_equal(f.chunk.count, k == 2 ? 0 : 3);
+        assert_int_equal(record_report_error(f.reader, &f.chunk), GRAZE_INPUT_ERROR);
+        assert_string_equal(f.c.text, k == 2 ? "in: record 1: cannot read: Is a directory"
+                                      : k    ? "in: record 4 is cut short: 8 of 32 bytes"
+                                             : "in: record 4 is cut short: 0 of 32 bytes");
+        end(&f);
+        fclose(file);
+    }
+}
+
+static void test_cancelled_file(void **state) {
+    (void)state;
+    FILE *file = file_of_doubles(8000);
+    rewind(file);
+    fixture f;
+    open_descriptor(&f, dup(fileno(file)), RECORD_DOUBLE, 4);
+    assert_true(record_read(f.reader, &f.chunk, 1000));
+    record_reader_cancel(f.reader);
+    assert_false(record_read(f.reader, &f.chunk, 1000));
+    assert_int_equal(f.chunk.count, 0);
+    end(&f);
+    fclose(file);
+}
+
 /* A record without an end is refused, not split in two; blanks before it are nothing of its. */
 static void test_endless_records(void **state) {
     (void)state;
@@ -612,6 +717,8 @@ int main(void) {
         cmocka_unit_test(test_failing_read),    cmocka_unit_test(test_every_split),
         cmocka_unit_test(test_floats_in_place), cmocka_unit_test(test_set_error),
         cmocka_unit_test(test_cancel),          cmocka_unit_test(test_long_file),
+        cmocka_unit_test(test_binary_file),     cmocka_unit_test(test_capacities_of_file),
+        cmocka_unit_test(test_failing_file),    cmocka_unit_test(test_cancelled_file),
         cmocka_unit_test(test_endless_records), cmocka_unit_test(test_transfer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -101,12 +101,11 @@ def contenders(binary, ascii, few):
     yield Contender("cat | brdfeval -ff -n 1", [*floats, "-n", "1"], binary, BINARY, pipe=True, beside=cat, goal=0.9)
     one = Contender("brdfeval -ff -n 1 < file", [*floats, "-n", "1"], binary, BINARY, beside=cat, goal=4)
     yield one
-    yield Contender("brdfeval -ff -n 2 < file", [*floats, "-n", "2"], binary, BINARY, beside=one)
+    yield Contender("brdfeval -ff -n 2 < file", [*floats, "-n", "2"], binary, BINARY, beside=one, goal=1)
     rcalc = Contender("rcalc < file, ASCII", RCALC, few, ASCII_RCALC)
     yield rcalc
-    one = Contender("brdfeval -n 1 < file, ASCII", [*text, "-n", "1"], ascii, ASCII, beside=rcalc, goal=20)
-    yield one
-    yield Contender("brdfeval -n 2 < file, ASCII", [*text, "-n", "2"], ascii, ASCII, beside=one)
+    for threads in "1", "2":
+        yield Contender(f"brdfeval -n {threads} < file, ASCII", [*text, "-n", threads], ascii, ASCII, beside=rcalc, goal=20)
 
 
 def main():

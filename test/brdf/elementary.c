@@ -1,4 +1,4 @@
-/* The samplers' elementary functions against arbitrary precision, in units in the last place. */
+/* Constants, and the samplers' elementary functions, against arbitrary precision, in units in the last place. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,6 +21,33 @@ static double ulps(mpfr_t exact, double found) {
     double result = fabs(mpfr_get_d(error, MPFR_RNDN));
     mpfr_clear(error);
     return result;
+}
+
+/* Whether the sum of both is `exact` to so many bits. */
+static bool has_bits(mpfr_t exact, double hi, double lo, int bits) {
+    mpfr_t error;
+    mpfr_init2(error, 200);
+    mpfr_sub_d(error, exact, hi, MPFR_RNDN);
+    mpfr_sub_d(error, error, lo, MPFR_RNDN);
+    mpfr_div(error, error, exact, MPFR_RNDN);
+    bool result = fabs(mpfr_get_d(error, MPFR_RNDN)) < ldexp(1, -bits);
+    mpfr_clear(error);
+    return result;
+}
+
+/* Both halves of constants.h; and that products with log 2 are as exact as it says. */
+static void constants_in_two_parts(void **state) {
+    (void)state;
+    mpfr_t exact;
+    mpfr_init2(exact, 200);
+    mpfr_const_pi(exact, MPFR_RNDN);
+    assert_true(has_bits(exact, brdf_pi, brdf_pi_low, 106));
+    assert_true(brdf_pi == mpfr_get_d(exact, MPFR_RNDN));
+    mpfr_const_log2(exact, MPFR_RNDN);
+    assert_true(has_bits(exact, brdf_ln2_hi, brdf_ln2_lo, 93));
+    for (int n = 1; n < 1 << 13; ++n)
+        assert_true(fma(n, brdf_ln2_hi, -(n * brdf_ln2_hi)) == 0);
+    mpfr_clear(exact);
 }
 
 static int cases(void) {
@@ -98,6 +125,7 @@ static void quarters_are_exact(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(constants_in_two_parts),
         cmocka_unit_test(logarithm),
         cmocka_unit_test(sine_and_cosine),
         cmocka_unit_test(quarters_are_exact),

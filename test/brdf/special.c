@@ -91,16 +91,52 @@ static void not_numbers_reflect_nothing(void **state) {
             for (int infinite = 0; infinite < 2; ++infinite) {
                 c[k] = infinite ? HUGE_VAL : NAN;
                 graze_vec3 l = {c[0], c[1], c[2]}, v = {c[3], c[4], c[5]};
-                assert_regular(graze_brdf_value(&brdf, l, v));
-                assert_regular(graze_brdf_ward_density(&brdf, l, v));
-                assert_regular(graze_brdf_pair_density(&brdf, l, v));
+                assert_same_bits(graze_brdf_value(&brdf, l, v), 0);
+                assert_same_bits(graze_brdf_ward_density(&brdf, l, v), 0);
+                assert_same_bits(graze_brdf_pair_density(&brdf, l, v), 0);
                 assert_regular(graze_brdf_ward_weight(&brdf, l, v));
                 assert_regular(graze_brdf_pair_weight(&brdf, l, v));
+                if (model != GRAZE_BRDF_GMD || k % 3 == 2) { /* else they depend on cosines and slopes alone */
+                    assert_same_bits(graze_brdf_ward_weight(&brdf, l, v), 0);
+                    assert_same_bits(graze_brdf_pair_weight(&brdf, l, v), 0);
+                }
                 assert_regular_sample(graze_brdf_sample_ward(&brdf, v, .5, .5));
                 assert_regular_sample(graze_brdf_sample_pair(&brdf, v, .5, .5, .5));
                 assert_regular(graze_brdf_albedo(&brdf, v));
             }
         }
+    }
+}
+
+/* `result` is `one` times 2^power, or as near to it as a double can be. */
+static void assert_scaled(double result, double one, int power) {
+    double expected = fmin(ldexp(one, power), DBL_MAX);
+    if (!(fabs(result - expected) <= 4e-16 * expected + 5e-324))
+        fail_msg("%.17g instead of %.17g, 2^%d times %.17g", result, expected, power, one);
+}
+
+/* Vectors 2^k times as long, though no directions, only change results by powers of two, which lead through all that
+ * takes those out of pairs and puts them back. */
+static void lengths_are_powers_of_two(void **state) {
+    (void)state;
+    static const int of_value[] = {-2, -1, -2, -1}, of_weight[] = {0, 1, 0, 1};
+    uint64_t seed = 5;
+    for (int i = 0; i < 2000; ++i) {
+        const graze_brdf brdf = {(graze_brdf_model)(i % 4), draw_power(&seed, 1e-3, 1), draw_power(&seed, 1e-3, 1)};
+        graze_vec3 v = direction(draw_between(&seed, .01, 1), draw_between(&seed, 0, 2 * pi));
+        graze_vec3 l = graze_brdf_sample_pair(&brdf, v, draw(&seed), draw(&seed), draw(&seed)).l;
+        int k = i % 8 < 4 ? (int)draw_between(&seed, -900, 1022) : (int)draw_between(&seed, -100, 100);
+        graze_vec3 far_l = {ldexp(l.x, k), ldexp(l.y, k), ldexp(l.z, k)};
+        graze_vec3 far_v = {ldexp(v.x, k), ldexp(v.y, k), ldexp(v.z, k)};
+        if (l.z < .01)
+            continue;
+        assert_scaled(graze_brdf_value(&brdf, far_l, far_v), graze_brdf_value(&brdf, l, v), of_value[i % 4] * k);
+        assert_scaled(graze_brdf_ward_density(&brdf, far_l, far_v), graze_brdf_ward_density(&brdf, l, v), -k);
+        assert_scaled(graze_brdf_pair_density(&brdf, far_l, far_v), graze_brdf_pair_density(&brdf, l, v), -k);
+        assert_scaled(graze_brdf_ward_weight(&brdf, far_l, far_v), graze_brdf_ward_weight(&brdf, l, v),
+                      of_weight[i % 4] * k);
+        assert_scaled(graze_brdf_pair_weight(&brdf, far_l, far_v), graze_brdf_pair_weight(&brdf, l, v),
+                      of_weight[i % 4] * k);
     }
 }
 
@@ -303,10 +339,15 @@ static void no_model_is_ward_neumann_everywhere(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(special_vectors),        cmocka_unit_test(not_numbers_reflect_nothing),
-        cmocka_unit_test(reciprocity_to_the_bit), cmocka_unit_test(samples_at_the_edges),
-        cmocka_unit_test(nothing_is_minus_zero),  cmocka_unit_test(too_large_is_the_largest_double),
-        cmocka_unit_test(lobes_out_of_range),     cmocka_unit_test(no_model_is_ward_neumann_everywhere),
+        cmocka_unit_test(special_vectors),
+        cmocka_unit_test(not_numbers_reflect_nothing),
+        cmocka_unit_test(lengths_are_powers_of_two),
+        cmocka_unit_test(reciprocity_to_the_bit),
+        cmocka_unit_test(samples_at_the_edges),
+        cmocka_unit_test(nothing_is_minus_zero),
+        cmocka_unit_test(too_large_is_the_largest_double),
+        cmocka_unit_test(lobes_out_of_range),
+        cmocka_unit_test(no_model_is_ward_neumann_everywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,6 +55,21 @@ check "one thread and five" cmp n1 n5
 check "another seed" sh -c '! cmp -s n1 seed'
 check "the same ray gets its own stream" sh -c "printf '$down$down' | $gtrace -h room.rad | uniq | wc -l | grep -qx 2"
 
+# Models of materials, and strategies.
+ask() { printf "$down" | "$gtrace" -h --error .005 "$@" room.rad; }
+check "--model is the new model's unless it says otherwise" test "$(ask)" = "$(ask --model gmd)"
+check "--model changes all materials" test "$(ask)" != "$(ask --model ward)"
+check "... or one" test "$(ask --model ward)" = "$(ask --model gmd --model=shiny=ward)"
+check "... the more specific wins" test "$(ask --model shiny=ward-duer --model ward)" = "$(ask --model ward-duer)"
+check "... then the last" test "$(ask --model ward-neumann)" = "$(ask --model ward --model ward-neumann)"
+"$gtrace" --model ward --model 'a b=ward-duer' -defaults | grep -q "^--model ward --model 'a b=ward-duer'"
+result $? "-defaults tells the models"
+fails "a model that there is not" 1 "models: gmd ward ward-duer ward-neumann" "" "$gtrace" --model wart room.rad
+fails "a model for no material" 1 "'dull'" "" "$gtrace" --model dull=ward room.rad
+fails "a model for a light" 1 "room.rad:3:1: light white" "" "$gtrace" --model white=ward room.rad
+fails "a model for a material without a name" 1 "name" "" "$gtrace" --model =ward room.rad
+fails "--model without a model" 1 "--model" "" "$gtrace" --model
+
 # An interactive client is answered before it sends more.
 check "answers come before the next ray is sent" bash -c '
     coproc '"$gtrace"' -h -os room.rad

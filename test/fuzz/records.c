@@ -3,12 +3,14 @@
  * for read() and poll() (the linker's --wrap), so that a run is the same every time.
  *
  * The first five bytes say how, the rest is the input:
- *   0: format a, f, d    1: fields 1 .. 9    2: records asked for at once    3: how the input comes    4: repeated? */
+ *   0: format a, f, d    1: fields 1 .. 9    2: records asked for at once, and whether it all lies in a file
+ *   3: how the input comes    4: repeated? */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <poll.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -227,13 +229,13 @@ static void check_numbers(reference *r, record_chunk *c, double *room) {
     }
 }
 
-static void read_all(const question *q, const graze_report *report) {
+static void read_all(const question *q, int descriptor, const graze_report *report) {
     reference r = {.q = q};
     record_reader *reader;
     record_chunk chunk = {0};
     double *room = malloc(q->capacity * q->fields * sizeof *room);
     MUST(room);
-    MUST(record_reader_open(&reader, source.descriptor, "in", q->format, (int)q->fields, report) == GRAZE_OK);
+    MUST(record_reader_open(&reader, descriptor, "in", q->format, (int)q->fields, report) == GRAZE_OK);
     bool more;
     do {
         size_t given = r.numbers / q->fields;
@@ -256,6 +258,18 @@ static void check_message(void *user, graze_severity severity, const char *text)
     MUST(severity == GRAZE_ERROR && strncmp(text, "in:", 3) == 0);
 }
 
+/* A file that holds the input and nothing else; it stays open from one input to the next. */
+static int fill_file(const char *bytes, size_t size) {
+    static FILE *file;
+    if (!file)
+        file = tmpfile();
+    MUST(file);
+    int descriptor = fileno(file);
+    MUST(ftruncate(descriptor, 0) == 0 && lseek(descriptor, 0, SEEK_SET) == 0);
+    MUST(pwrite(descriptor, bytes, size, 0) == (ssize_t)size);
+    return descriptor;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const char formats[] = {RECORD_ASCII, RECORD_FLOAT, RECORD_DOUBLE};
     static const size_t capacities[] = {1, 2, 3, 7, 64, 4096}, pieces[] = {1, 3, 17, 200, 5000, 100000};
@@ -265,7 +279,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     size_t payload = size - HEAD, repeat = data[4] >= 240 ? (data[4] - 239u) * 16u : 1;
     while (repeat > 1 && repeat * payload > LONGEST)
         repeat--;
-    bool fails = data[3] & 0x80;
+    bool in_file = data[2] & 0x80, fails = !in_file && data[3] & 0x80;
     char *bytes = malloc(repeat * payload + 1);
     MUST(bytes);
     for (size_t i = 0; i < repeat; i++)
@@ -276,7 +290,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         bytes[length++] = '\n';
     const question q = {.format = (record_format)formats[data[0] % 3],
                         .fields = 1 + data[1] % 9,
-                        .capacity = capacities[data[2] % 6],
+                        .capacity = capacities[(data[2] & 0x7f) % 6],
                         .bytes = bytes,
                         .size = length,
                         .fails = fails};
@@ -290,7 +304,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     source.random = data[3];
     source.fails = fails;
     const graze_report report = {check_message, NULL};
-    read_all(&q, &report);
+    read_all(&q, in_file ? fill_file(bytes, length) : source.descriptor, &report);
     free(bytes);
     return 0;
 }

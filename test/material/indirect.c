@@ -27,6 +27,7 @@ static void weight_is_value_cosine_over_density(void **state) {
         graze_material m = turned_material(&g, 0.02 + uniform(&g), 0.02 + uniform(&g));
         if (i % 4 == 0)
             m.roughness_u = m.roughness_v = 0;
+        m.model = (graze_brdf_model)(i / 4 % 4);
         vec3 n = random_direction(&g), view = direction_at(&g, n, 0.02 + 0.98 * uniform(&g));
         graze_surface s;
         graze_surface_prepare(&s, &m, n, view, NULL);
@@ -64,6 +65,37 @@ static void weights_of_the_new_model_stay_below_the_reflectance(void **state) {
         assert_unit(sample.direction);
         assert_finite_nonnegative(sample.weight);
         assert_true(sample.weight.r <= s.specular.r * (1 + 1e-15));
+    }
+}
+
+/* Whatever the model; the share that is kept is that of Ward's sampling, and it falls where Ward's does. */
+static void unweighted_samples_all_weigh_the_same(void **state) {
+    (void)state;
+    generator g = {27};
+    const double cosines[] = {0.9, 0.1, 0.01};
+    enum { COUNT = 40000 };
+    for (int i = 0; i < 3; i++) {
+        graze_material m = turned_material(&g, 0.1, 0.3);
+        m.model = (graze_brdf_model)i;
+        vec3 n = random_direction(&g);
+        graze_surface s;
+        graze_surface_prepare(&s, &m, n, direction_at(&g, n, cosines[i]), NULL);
+        int kept = 0;
+        for (int k = 0; k < COUNT; k++) {
+            double r0 = uniform(&g), r1 = uniform(&g);
+            graze_surface_sample sample = graze_surface_sample_unweighted(&s, r0, r1);
+            graze_brdf_sample ward = graze_brdf_sample_ward(&s.lobe, s.local_view, r0, r1);
+            assert_unit(sample.direction);
+            assert_true(sample.density == ward.density && (ward.density > 0) == !rgb_is_black(sample.weight));
+            if (rgb_is_black(sample.weight))
+                continue;
+            kept++;
+            assert_memory_equal(&sample.weight, &s.specular, sizeof s.specular);
+            assert_true(fabs(vec3_dot(sample.direction, n) - ward.l.z) < 1e-15);
+            assert_true(fabs(vec3_dot(sample.direction, s.x) - ward.l.x) < 1e-14);
+        }
+        double share = graze_brdf_ward_acceptance(&s.lobe, s.local_view);
+        assert_true(fabs(kept - COUNT * share) <= 4 * sqrt(COUNT * share * (1 - share)) + 0.5);
     }
 }
 
@@ -194,6 +226,8 @@ static void lobes_that_are_not_there_only_give_rejected_samples(void **state) {
         graze_surface s;
         graze_surface_prepare(&s, cases[i].material, n, view, NULL);
         assert_rejected(graze_surface_sample_lobe(&s, cases[i].lobe, 0.25, 0.5, 0.75));
+        if (cases[i].material != &glossy)
+            assert_rejected(graze_surface_sample_unweighted(&s, 0.25, 0.5));
         assert_true(graze_surface_density(&s, cases[i].lobe, vec3_make(-0.6, 0, 0.8)) == 0);
     }
 }
@@ -294,6 +328,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weight_is_value_cosine_over_density),
         cmocka_unit_test(weights_of_the_new_model_stay_below_the_reflectance),
+        cmocka_unit_test(unweighted_samples_all_weigh_the_same),
         cmocka_unit_test(glossy_samples_follow_their_density_in_world_space),
         cmocka_unit_test(diffuse_samples_follow_their_density_in_world_space),
         cmocka_unit_test(mirrors_reflect_in_one_direction),

@@ -96,9 +96,9 @@ def standard_normal(t, freedom):
 class Case:
     """Radiance traces each of `parts`, whose light adds up to the scene's, with `repeat` repetitions."""
 
-    def __init__(self, name, scene, rays, options, peer_options="", repeat=64, samples=4096, parts=None):
+    def __init__(self, name, scene, rays, options, peer_options="", repeat=64, samples=4096, parts=None, own_options=""):
         self.name, self.scene, self.parts, self.rays = name, scene, parts or [scene], np.asarray(rays, "<f4")
-        self.options, self.peer_options = options.split(), peer_options.split()
+        self.options, self.peer_options, self.own_options = options.split(), peer_options.split(), own_options.split()
         self.repeat, self.samples = repeat, samples
 
     def radiance(self, radiance):
@@ -112,7 +112,7 @@ class Case:
         # Four estimates a ray, of 16 independent replicates each, so that the error itself is known well enough.
         repeat = 4
         data = np.repeat(self.rays, repeat, axis=0).tobytes()
-        options = [*self.options, "--samples", str(self.samples // repeat), "--seed", SEED, "-ove", "-ff"]
+        options = [*self.options, *self.own_options, "--samples", str(self.samples // repeat), "--seed", SEED, "-ove", "-ff"]
         out = np.frombuffer(gtrace(self.scene, options, data), "<f4").reshape(len(self.rays), repeat, 6).astype(float)
         return out[:, :, :3].mean(1), np.sqrt((out[:, :, 3:] ** 2).sum(1)) / repeat, repeat * 15
 
@@ -237,6 +237,10 @@ def cases():
     along = 10 ** random.uniform(0.4, 1.6, 120)
     yield Case("grazing plane", "grazing", aim([0, 0, 0.1], np.c_[random.uniform(-0.05, 0.05, 120) * along, along, 0 * along]),
                "-ab 0", "-ss 64 -ds .001", repeat=512, samples=8192)
+    # What Radiance does by default, drawing again and leaving the weights out, is `--strategy unweighted`.
+    yield Case("grazing plane, a glow, without weights", "grazing_glow",
+               aim([0, 0, 0.1], np.c_[random.uniform(-0.05, 0.05, 60) * along[:60], along[:60], 0 * along[:60]]),
+               "-ab 0", "-ss 1", repeat=16384, samples=65536, own_options="--strategy unweighted")
 
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away

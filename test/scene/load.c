@@ -89,6 +89,57 @@ static void a_surface_across_its_orientation_is_warned_about(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* The models that materials a, b and c, an alias of a, have after the choices. */
+static void assert_models(const graze_model_choice *choices, size_t count, const graze_brdf_model *expected) {
+    const graze_scene_settings settings = {.models = choices, .model_count = count};
+    graze_scene *scene =
+        scene_from_text_with("void plastic a 0 0 5 1 1 1 .1 .1\nvoid metal2 b 4 1 0 0 . 0 6 1 1 1 .1 .1 .2\n"
+                             "void alias c a\nvoid light l 0 0 3 1 1 1\n"
+                             "a sphere a 0 0 4 0 0 0 1\nb sphere b 0 0 4 4 0 0 1\n"
+                             "c sphere c 0 0 4 8 0 0 1\nl sphere l 0 0 4 0 4 0 1\n",
+                             &settings);
+    if (!scene)
+        fail_msg("%s", scene_messages);
+    for (size_t i = 0; i < 3; i++) {
+        assert_string_equal(scene_name(scene, scene->surfaces[i].primitive), ((const char *[]){"a", "b", "c"}[i]));
+        assert_int_equal(scene->materials[scene->surfaces[i].material].reflector.model, expected[i]);
+    }
+    graze_scene_destroy(scene);
+}
+
+static void models_are_chosen_most_specifically(void **state) {
+    (void)state;
+    const graze_brdf_model gmd = GRAZE_BRDF_GMD, ward = GRAZE_BRDF_WARD, duer = GRAZE_BRDF_WARD_DUER,
+                           neumann = GRAZE_BRDF_WARD_NEUMANN;
+    const graze_model_choice all[] = {{NULL, ward}, {NULL, duer}};
+    const graze_model_choice named[] = {{"a", ward}, {"b", neumann}, {NULL, duer}, {"b", gmd}};
+    const graze_model_choice alias[] = {{"c", ward}, {"a", neumann}};
+    assert_models(NULL, 0, (const graze_brdf_model[]){gmd, gmd, gmd});
+    assert_models(all, 1, (const graze_brdf_model[]){ward, ward, ward});
+    assert_models(all, 2, (const graze_brdf_model[]){duer, duer, duer});
+    assert_models(named, 3, (const graze_brdf_model[]){ward, neumann, ward});
+    assert_models(named, 4, (const graze_brdf_model[]){ward, gmd, ward});
+    assert_models(alias, 2, (const graze_brdf_model[]){neumann, gmd, ward});
+}
+
+static void models_are_for_materials_that_reflect(void **state) {
+    (void)state;
+    const char *text = "void plastic p 0 0 5 1 1 1 .1 .1\nvoid light l 0 0 3 1 1 1\np sphere s 0 0 4 0 0 0 1\n";
+    const struct {
+        graze_model_choice choice;
+        const char *reason;
+    } cases[] = {{{"q", GRAZE_BRDF_WARD}, "no material 'q'"},
+                 {{"l", GRAZE_BRDF_WARD}, ":2:1: light l: has no reflectance model"},
+                 {{"s", GRAZE_BRDF_WARD}, ":3:1: sphere s: has no reflectance model"},
+                 {{"p", (graze_brdf_model)4}, "unknown reflectance model 4"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const graze_scene_settings settings = {.models = &cases[i].choice, .model_count = 1};
+        assert_null(scene_from_text_with(text, &settings));
+        if (!strstr(scene_messages, cases[i].reason))
+            fail_msg("wanted '%s', got: %s", cases[i].reason, scene_messages);
+    }
+}
+
 static void an_empty_scene_is_a_scene(void **state) {
     (void)state;
     graze_scene *scene = scene_from_text("# nothing here\n");
@@ -105,6 +156,8 @@ int main(void) {
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),
         cmocka_unit_test(a_surface_across_its_orientation_is_warned_about),
+        cmocka_unit_test(models_are_chosen_most_specifically),
+        cmocka_unit_test(models_are_for_materials_that_reflect),
         cmocka_unit_test(an_empty_scene_is_a_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,8 +19,8 @@ static inline void scene_text_remember(void *user, graze_severity severity, cons
              severity == GRAZE_ERROR ? "error" : "warning", text);
 }
 
-/* Loads a scene from its text; null if it does not load. */
-static inline graze_scene *scene_from_text(const char *text) {
+/* Loads a scene from its text, built by the settings; null if it does not load. */
+static inline graze_scene *scene_from_text_with(const char *text, const graze_scene_settings *settings) {
     char name[] = "/tmp/graze-scene-XXXXXX";
     int descriptor = mkstemp(name);
     if (descriptor < 0 || write(descriptor, text, strlen(text)) != (ssize_t)strlen(text))
@@ -30,9 +30,13 @@ static inline graze_scene *scene_from_text(const char *text) {
     const char *names[] = {name};
     graze_report report = {scene_text_remember, NULL};
     graze_scene *scene = NULL;
-    graze_status status = graze_scene_load(&scene, names, 1, 1, &report);
+    graze_status status = graze_scene_load(&scene, names, 1, settings, &report);
     unlink(name);
     return status == GRAZE_OK ? scene : NULL;
+}
+
+static inline graze_scene *scene_from_text(const char *text) {
+    return scene_from_text_with(text, NULL);
 }
 
 #endif

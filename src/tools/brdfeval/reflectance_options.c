@@ -4,20 +4,11 @@
 #include <string.h>
 
 #include "tools/brdfeval/scene_material.h"
-
-static const char *const model_names[] = {
-    [GRAZE_BRDF_GMD] = "gmd",
-    [GRAZE_BRDF_WARD] = "ward",
-    [GRAZE_BRDF_WARD_DUER] = "ward-duer",
-    [GRAZE_BRDF_WARD_NEUMANN] = "ward-neumann",
-};
+#include "tools/common/model_name.h"
 
 static graze_status find_model(const char *name, graze_brdf_model *model, const graze_report *report) {
-    for (int i = GRAZE_BRDF_GMD; i <= GRAZE_BRDF_WARD_NEUMANN; i++)
-        if (strcmp(name, model_names[i]) == 0) {
-            *model = (graze_brdf_model)i;
-            return GRAZE_OK;
-        }
+    if (model_find(name, model))
+        return GRAZE_OK;
     return report_error(report, NULL, "-m: there is no model '%s'; models: gmd ward ward-duer ward-neumann", name);
 }
 
@@ -98,7 +89,7 @@ static void print_material(void *target, FILE *out) {
 
 void reflectance_options_begin(reflectance_options *o, option table[REFLECTANCE_OPTION_COUNT]) {
     *o = (reflectance_options){
-        .model = model_names[GRAZE_BRDF_GMD],
+        .model = model_name(GRAZE_BRDF_GMD),
         .parameters = {
             [ALPHA_X] = {"-ax", "roughness", GRAZE_ROUGHNESS_MIN, GRAZE_ROUGHNESS_MAX, .1, NULL, o},
             [ALPHA_Y] = {"-ay", "roughness", GRAZE_ROUGHNESS_MIN, GRAZE_ROUGHNESS_MAX, .1, NULL, o},

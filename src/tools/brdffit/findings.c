@@ -7,11 +7,6 @@
 #include "base/angle.h"
 #include "base/number.h"
 
-const char *findings_model_name(graze_brdf_model model) {
-    static const char *const names[] = {"gmd", "ward", "ward-duer", "ward-neumann"};
-    return names[model];
-}
-
 const char *findings_loss_name(fit_loss loss) {
     static const char *const names[] = {"cosine", "plain", "log"};
     return names[loss];

@@ -15,7 +15,6 @@ typedef struct findings {
     fit_result fits[FINDINGS_MODELS];
 } findings;
 
-const char *findings_model_name(graze_brdf_model);
 const char *findings_loss_name(fit_loss);
 const char *findings_state_name(fit_state);
 /* The fit of the new model, which is what plastic2 and metal2 are; null if it was not asked for. */

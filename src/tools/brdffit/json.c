@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "fit/material.h"
 #include "tools/brdffit/findings.h"
+#include "tools/common/model_name.h"
 
 /* File names and columns are bytes of any kind: what is no ASCII text is written as if it were Latin-1, so that the
  * result is always JSON, unless it is UTF-8. */
@@ -117,7 +118,7 @@ static void append_quality(record_buffer *out, const fit_quality *q) {
 }
 
 static void append_fit(record_buffer *out, const findings *r, const fit_result *f) {
-    findings_append_format(out, "    {\"model\": \"%s\", \"pairs\": %zu, ", findings_model_name(f->model), f->pairs);
+    findings_append_format(out, "    {\"model\": \"%s\", \"pairs\": %zu, ", model_name(f->model), f->pairs);
     append_number(out, "residual_20", f->residual);
     record_append_text(out, ", ");
     append_number(out, "rms_20", f->root_mean_square);

@@ -7,6 +7,7 @@
 
 #include "tools/brdffit/gnuplot.h"
 #include "tools/brdffit/plane.h"
+#include "tools/common/model_name.h"
 
 enum { PANELS_MAX = 12, CURVE_STEPS = 720, PANEL_WIDTH_PIXELS = 420, PANEL_HEIGHT_PIXELS = 320 };
 
@@ -86,7 +87,7 @@ static void append_panel(record_buffer *out, const findings *r, const plane *all
         out, "]\nplot $measured%zu with points pointtype 6 pointsize 0.5 linecolor 'black' title 'measured'", number);
     for (size_t k = 0; k < r->fit_count; k++)
         findings_append_format(out, ", \\\n    $fit%zu_%zu with lines linewidth 1.5 linetype %zu title '%s'", number, k,
-                               k + 1, findings_model_name(r->fits[k].model));
+                               k + 1, model_name(r->fits[k].model));
     record_append_text(out, "\n");
 }
 

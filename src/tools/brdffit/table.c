@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "tools/brdffit/findings.h"
+#include "tools/common/model_name.h"
 
 enum { LABEL_WIDTH = 16, CELL_WIDTH = 24, CELL_SIZE = 2 * NUMBER_TEXT_SIZE + 16 };
 
@@ -100,7 +101,7 @@ void findings_append_table(record_buffer *out, const findings *r) {
                            channels > 1 ? "s" : "");
     append_padded(out, "", LABEL_WIDTH);
     for (size_t i = 0; i < r->fit_count; i++)
-        append_padded(out, findings_model_name(r->fits[i].model), CELL_WIDTH);
+        append_padded(out, model_name(r->fits[i].model), CELL_WIDTH);
     end_row(out);
     append_rows(out, r, r->settings->anisotropic ? "alpha_x" : "alpha", alpha_x_of, r->settings->shared ? 1 : channels);
     if (r->settings->anisotropic)

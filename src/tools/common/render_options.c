@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "tools/common/model_name.h"
 
 render_options render_options_default(double error) {
     graze_trace_settings defaults = graze_trace_defaults();
@@ -35,6 +36,46 @@ render_options render_options_default(double error) {
     return o;
 }
 
+/* Takes `MODEL` or `MATERIAL=MODEL`; a material's name may hold a =, a model's does not. */
+static graze_status take_model(void *target, const char *suffix, int count, const char *const *words, int *used,
+                               const graze_report *report) {
+    model_options *o = target;
+    if (*suffix || count < 1)
+        return report_error(report, NULL, "option '--model' needs a model: [MATERIAL=]MODEL");
+    if (o->count == RENDER_MODEL_LIMIT)
+        return report_error(report, NULL, "--model may be given %d times at most", RENDER_MODEL_LIMIT);
+    const char *equals = strrchr(words[0], '='), *model = equals ? equals + 1 : words[0];
+    graze_model_choice *choice = &o->choices[o->count];
+    *choice = (graze_model_choice){0};
+    if (!model_find(model, &choice->model))
+        return report_error(report, NULL, "--model: there is no model '%s'; models: gmd ward ward-duer ward-neumann",
+                            model);
+    if (equals) {
+        size_t length = (size_t)(equals - words[0]);
+        if (length == 0 || length >= sizeof o->names[0])
+            return report_error(report, NULL, "--model %s: a material's name has 1 to %zu characters", words[0],
+                                sizeof o->names[0] - 1);
+        memcpy(o->names[o->count], words[0], length);
+        o->names[o->count][length] = 0;
+        choice->material = o->names[o->count];
+    }
+    o->count++;
+    *used = 1;
+    return GRAZE_OK;
+}
+
+static void print_models(void *target, FILE *out) {
+    const model_options *o = target;
+    for (size_t i = 0; i < o->count; i++) {
+        char word[sizeof o->names[0] + 32];
+        const char *name = o->choices[i].material;
+        snprintf(word, sizeof word, "%s%s%s", name ? name : "", name ? "=" : "", model_name(o->choices[i].model));
+        fputs("--model ", out);
+        options_print_word(out, word);
+        fputs(i + 1 < o->count ? " " : "", out);
+    }
+}
+
 void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) {
     const option options[RENDER_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "Accuracy", 0, 0, NULL, NULL},
@@ -46,8 +87,10 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
         {"--max-samples", OPTION_INTEGER, &o->sample_limit, "N", "never more paths than this", 2, 1 << 30, NULL, NULL},
         {"--seed", OPTION_INTEGER, &o->seed, "S", "other seeds give other, equally good answers", 0, 2147483647, NULL,
          NULL},
-        {"--strategy", OPTION_TEXT, &o->strategy, "S", "light (Eq. 18), brdf (Eq. 16), or mis (both)", 0, 0, NULL,
-         NULL},
+        {"--strategy", OPTION_TEXT, &o->strategy, "S",
+         "light (Eq. 18), brdf (Eq. 16), mis (both); or unweighted, as old Radiance", 0, 0, NULL, NULL},
+        {"--model", OPTION_CUSTOM, &o->models, "[MATERIAL=]MODEL", "gmd, ward, ward-duer or ward-neumann", 0, 0,
+         take_model, print_models},
         {"-n", OPTION_INTEGER, &o->threads, "N", "number of threads", 1, 1024, NULL, NULL},
         {"", OPTION_HEADING, NULL, NULL, "Light", 0, 0, NULL, NULL},
         {"-ab", OPTION_INTEGER, &o->ambient_bounces, "N", "diffuse interreflections", 0, 1000000, NULL, NULL},
@@ -91,13 +134,17 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
 
 static graze_status read_strategy(const char *name, graze_strategy *strategy, const graze_report *report) {
     static const char *const names[] = {
-        [GRAZE_STRATEGY_MIS] = "mis", [GRAZE_STRATEGY_LIGHT] = "light", [GRAZE_STRATEGY_BRDF] = "brdf"};
+        [GRAZE_STRATEGY_MIS] = "mis",
+        [GRAZE_STRATEGY_LIGHT] = "light",
+        [GRAZE_STRATEGY_BRDF] = "brdf",
+        [GRAZE_STRATEGY_UNWEIGHTED] = "unweighted",
+    };
     for (int i = 0; i < (int)(sizeof names / sizeof *names); i++)
         if (strcmp(name, names[i]) == 0) {
             *strategy = (graze_strategy)i;
             return GRAZE_OK;
         }
-    return report_error(report, NULL, "--strategy must be light, brdf or mis, not '%s'", name);
+    return report_error(report, NULL, "--strategy must be light, brdf, mis or unweighted, not '%s'", name);
 }
 
 graze_status render_options_settings(const render_options *o, bool sensor, graze_trace_settings *s,
@@ -120,4 +167,8 @@ graze_status render_options_settings(const render_options *o, bool sensor, graze
     s->seed = (uint64_t)o->seed;
     graze_status status = read_strategy(o->strategy, &s->strategy, report);
     return status != GRAZE_OK ? status : graze_trace_check(s, report);
+}
+
+graze_scene_settings render_options_scene(const render_options *o) {
+    return (graze_scene_settings){.threads = o->threads, .models = o->models.choices, .model_count = o->models.count};
 }

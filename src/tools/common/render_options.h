@@ -7,6 +7,15 @@
 #include "base/options.h"
 #include "graze/trace.h"
 
+#define RENDER_MODEL_LIMIT 32
+
+/* What --model says, as often as it is given. */
+typedef struct model_options {
+    size_t count;
+    graze_model_choice choices[RENDER_MODEL_LIMIT]; /* `material` is one of names, or null */
+    char names[RENDER_MODEL_LIMIT][256];
+} model_options;
+
 /* Where the options' values go, in the types that base/options.h wants. */
 typedef struct render_options {
     bool irradiance, back_faces, lights_visible, warnings;
@@ -15,6 +24,7 @@ typedef struct render_options {
     double minimum_weight, specular_threshold, error, floor;
     int samples, sample_limit, seed;
     const char *strategy, *color;
+    model_options models;
     /* Accepted so that Radiance's command lines work; Graze has nothing that they could steer. */
     struct {
         double ambient_accuracy, direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
@@ -27,12 +37,15 @@ typedef struct render_options {
 render_options render_options_default(double error);
 
 /* How many entries render_options_table fills. */
-#define RENDER_OPTION_COUNT 34
+#define RENDER_OPTION_COUNT 35
 
 /* Fills in table entries that store into the options. */
 void render_options_table(render_options *, option table[RENDER_OPTION_COUNT]);
 
 /* Turns the values into settings, checked. `sensor` is rtrace's -I. */
 graze_status render_options_settings(const render_options *, bool sensor, graze_trace_settings *, const graze_report *);
+
+/* How the scene is to be built. The options must outlive the result. */
+graze_scene_settings render_options_scene(const render_options *);
 
 #endif

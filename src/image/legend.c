@@ -1,0 +1,98 @@
+/* Drawing legends. */
+#include "image/legend.h"
+
+#include <math.h>
+
+#include "image/font.h"
+
+/* In dots of the letters. */
+enum { MARGIN = 6, BAR = 12, TICK = 3, GAP = 7, ROW = IMAGE_FONT_HEIGHT + 5, LABEL = 2 * ROW };
+enum { LEAST_ROWS = 5 };
+/* A dot of the letters has half a pixel and one more for each so many of the picture's height. */
+static const double height_of_dot = 360;
+static const double largest_scale = 8;
+
+static int width_in_dots(const image_legend *legend) {
+    int text = 0, all = image_text_width(legend->label);
+    for (int i = 0; i < legend->count; i++)
+        text = image_text_width(legend->entries[i].text) > text ? image_text_width(legend->entries[i].text) : text;
+    if (BAR + GAP + text > all)
+        all = BAR + GAP + text;
+    if (legend->note && BAR + GAP + image_text_width(legend->note) > all)
+        all = BAR + GAP + image_text_width(legend->note);
+    return all + 2 * MARGIN;
+}
+
+/* Whole and half pixels to a dot: others look uneven. */
+static double even_scale(double scale) {
+    return fmin(fmax(round(2 * scale) / 2, 1), largest_scale);
+}
+
+image_legend_size image_legend_fit(const image_legend *legend, int picture_height, int width, int height) {
+    if (width == 0 || height == 0)
+        return (image_legend_size){0, 0, 0};
+    int dots = width_in_dots(legend);
+    double scale = even_scale(0.5 + (height > 0 ? height : picture_height) / height_of_dot);
+    if (width > 0)
+        scale = fmin(scale, even_scale((double)width / dots));
+    int least = (int)ceil((2 * MARGIN + LABEL + LEAST_ROWS * ROW) * scale);
+    return (image_legend_size){.width = width > 0 ? width : (int)ceil(dots * scale),
+                               .height = height > 0               ? height
+                                         : picture_height > least ? picture_height
+                                                                  : least,
+                               .scale = scale};
+}
+
+/* From row `top` to row `bottom`, both within the scale. */
+static void draw_bar(const image_legend *legend, image_canvas *canvas, double scale, int top, int bottom) {
+    int x = (int)lround(MARGIN * scale), width = (int)lround(BAR * scale);
+    for (int y = top; y < bottom; y++) {
+        unsigned char color[3];
+        if (legend->color(legend->user, (bottom - y - 0.5) / (bottom - top), color))
+            image_fill(canvas, x, y, width, 1, color);
+    }
+}
+
+static void draw_entry(const image_legend *legend, const image_legend_entry *entry, const image_legend_size *size,
+                       image_canvas *canvas, double y) {
+    static const unsigned char pale[3] = {225, 225, 225};
+    double scale = size->scale, right = size->width - MARGIN * scale;
+    int left = (int)lround(MARGIN * scale), width = (int)lround(BAR * scale), thick = (int)lround(scale);
+    if (legend->color)
+        image_fill(canvas, left + width, (int)lround(y - thick / 2.), (int)lround(TICK * scale), thick, pale);
+    else
+        image_fill(canvas, left, (int)lround(y - thick), width, 2 * thick, entry->color);
+    image_draw_text(canvas, right - image_text_width(entry->text) * scale, y - IMAGE_FONT_HEIGHT / 2. * scale, scale,
+                    pale, entry->text);
+}
+
+static void draw_note(const image_legend *legend, const image_legend_size *size, image_canvas *canvas) {
+    static const unsigned char pale[3] = {225, 225, 225};
+    double scale = size->scale, y = size->height - (MARGIN + IMAGE_FONT_HEIGHT) * scale;
+    int left = (int)lround(MARGIN * scale), width = (int)lround(BAR * scale);
+    image_fill(canvas, left, (int)lround(y), width, (int)lround(IMAGE_FONT_HEIGHT * scale), legend->note_color);
+    image_draw_text(canvas, left + width + GAP * scale, y, scale, pale, legend->note);
+}
+
+void image_legend_draw(const image_legend *legend, const image_legend_size *size, image_canvas *canvas) {
+    static const unsigned char white[3] = {255, 255, 255};
+    if (size->width == 0)
+        return;
+    double scale = size->scale;
+    int top = (int)lround((MARGIN + LABEL) * scale);
+    int bottom = (int)lround(size->height - (MARGIN + IMAGE_FONT_HEIGHT / 2. + (legend->note ? LABEL : 0)) * scale);
+    if (bottom <= top)
+        bottom = top + 1;
+    image_draw_text(canvas, MARGIN * scale, MARGIN * scale, scale, white, legend->label);
+    if (legend->color)
+        draw_bar(legend, canvas, scale, top, bottom);
+    if (legend->note)
+        draw_note(legend, size, canvas);
+    int last = legend->count - 1;
+    double apart = HUGE_VAL;
+    for (int i = 0; i < last; i++)
+        apart = fmin(apart, (legend->entries[i + 1].at - legend->entries[i].at) * (bottom - top));
+    int step = apart < ROW * scale ? (int)ceil(ROW * scale / apart) : 1;
+    for (int i = last; i >= 0; i -= step)
+        draw_entry(legend, &legend->entries[i], size, canvas, bottom - legend->entries[i].at * (bottom - top));
+}
