@@ -18,51 +18,104 @@
  * mean by a part of 1/n; so many times 1/n must be within the error. */
 #define UNSEEN 1.0
 
-typedef struct replicates {
-    uint64_t key[ESTIMATE_REPLICATES];
-    rgb sum[ESTIMATE_REPLICATES];
-    path_control controls[PATH_CONTROLS][ESTIMATE_REPLICATES]; /* sums */
+enum { HALVES = 2, IN_HALF = ESTIMATE_REPLICATES / HALVES };
+
+/* One half of the replicates. Whatever is decided about a half's samples - how many there are, how much of a control is
+ * added - is decided by what the other half has found. Decisions then do not depend on the samples that they are about,
+ * and neither the mean nor its error is led astray: an answer that stopped when it looked good enough to itself would
+ * be biased towards what looks good. */
+typedef struct half {
+    uint64_t key[IN_HALF];
+    rgb sum[IN_HALF];
+    path_control controls[PATH_CONTROLS][IN_HALF]; /* sums */
     path_control totals[PATH_CONTROLS];
     int control_count;
     uint32_t taken;     /* of all replicates together */
     estimate_luck luck; /* the worst of any sample */
-} replicates;
+} half;
 
-static uint32_t replicate_count(const replicates *r, int i) {
-    return r->taken / ESTIMATE_REPLICATES + ((uint32_t)i < r->taken % ESTIMATE_REPLICATES);
+static uint32_t replicate_count(const half *h, int i) {
+    return h->taken / IN_HALF + ((uint32_t)i < h->taken % IN_HALF);
 }
 
-/* The share of a control that is added to a replicate's sum: of what the other replicates have found, so that it does
- * not depend on the replicate's own samples and the mean stays what it is. */
-static double share_of_control(const path_control *total, const path_control *own) {
-    double lit = total->lit - own->lit, whole = total->whole - own->whole;
-    return lit < whole ? fmax(lit, 0) / whole : 1;
+static int replicates_used(const half *h) {
+    return h->taken < IN_HALF ? (int)h->taken : IN_HALF;
 }
 
-static rgb controlled_sum(const replicates *r, int i) {
-    rgb sum = r->sum[i];
-    for (int k = 0; k < r->control_count; k++)
-        sum = rgb_add_scaled(sum, share_of_control(&r->totals[k], &r->controls[k][i]), r->controls[k][i].difference);
+/* The share of a control that the other half's replicates add: what of it is not shadowed. */
+static double share_of_control(const path_control *found) {
+    return found->lit < found->whole ? fmax(found->lit, 0) / found->whole : 1;
+}
+
+static rgb controlled_sum(const half *h, const half *other, int i) {
+    rgb sum = h->sum[i];
+    for (int k = 0; k < h->control_count; k++)
+        sum = rgb_add_scaled(sum, share_of_control(&other->totals[k]), h->controls[k][i].difference);
     return sum;
 }
 
-/* The mean of all samples, and its standard error: the replicates' sums scatter about their shares of the total. */
-static void summarize(const replicates *r, graze_answer *answer) {
-    rgb sums[ESTIMATE_REPLICATES], total = {0, 0, 0}, variance = {0, 0, 0};
-    int used = r->taken < ESTIMATE_REPLICATES ? (int)r->taken : ESTIMATE_REPLICATES;
-    for (int i = 0; i < used; i++) {
-        sums[i] = controlled_sum(r, i);
-        total = rgb_add(total, sums[i]);
+static rgb total_of(const half *h, const half *other) {
+    rgb total = {0, 0, 0};
+    for (int i = 0; i < replicates_used(h); i++)
+        total = rgb_add(total, controlled_sum(h, other, i));
+    return total;
+}
+
+/* How widely the replicates' sums scatter about their shares of a mean: the sum of squares. */
+static rgb scatter_of(const half *h, const half *other, rgb mean) {
+    rgb sum = {0, 0, 0};
+    for (int i = 0; i < replicates_used(h); i++) {
+        rgb deviation = rgb_add_scaled(controlled_sum(h, other, i), -(double)replicate_count(h, i), mean);
+        sum = rgb_add(sum, rgb_multiply(deviation, deviation));
     }
-    rgb mean = rgb_scale(1.0 / r->taken, total);
-    for (int i = 0; i < used; i++) {
-        rgb deviation = rgb_add_scaled(sums[i], -(double)replicate_count(r, i), mean);
-        variance = rgb_add(variance, rgb_multiply(deviation, deviation));
-    }
-    double scale = used > 1 ? used / (used - 1.0) / ((double)r->taken * r->taken) : 0;
+    return sum;
+}
+
+/* A mean and its variance. */
+typedef struct finding {
+    rgb mean, variance;
+    uint32_t taken;
+    estimate_luck luck;
+} finding;
+
+static rgb variance_of(rgb scatter, int used, uint32_t taken) {
+    return rgb_scale(used > 1 ? used / (used - 1.0) / ((double)taken * taken) : 0, scatter);
+}
+
+static finding finding_of(const half *h, const half *other) {
+    rgb mean = rgb_scale(1.0 / h->taken, total_of(h, other));
+    return (finding){mean, variance_of(scatter_of(h, other, mean), replicates_used(h), h->taken), h->taken, h->luck};
+}
+
+static void set_answer(graze_answer *answer, rgb mean, rgb variance, const half halves[HALVES]) {
     answer->value = mean;
-    answer->standard_error = (rgb){sqrt(scale * variance.r), sqrt(scale * variance.g), sqrt(scale * variance.b)};
-    answer->samples = r->taken;
+    answer->standard_error = (rgb){sqrt(variance.r), sqrt(variance.g), sqrt(variance.b)};
+    answer->samples = halves[0].taken + halves[1].taken;
+}
+
+/* Where both halves have as many samples, the mean of all. */
+static void summarize_together(const half halves[HALVES], graze_answer *answer) {
+    uint32_t taken = halves[0].taken + halves[1].taken;
+    rgb total = rgb_add(total_of(&halves[0], &halves[1]), total_of(&halves[1], &halves[0]));
+    rgb mean = rgb_scale(1.0 / taken, total);
+    rgb scatter = rgb_add(scatter_of(&halves[0], &halves[1], mean), scatter_of(&halves[1], &halves[0], mean));
+    int used = replicates_used(&halves[0]) + replicates_used(&halves[1]);
+    set_answer(answer, mean, variance_of(scatter, used, taken), halves);
+}
+
+/* Where the numbers were decided to be different, the mean of both halves, each counted as much as the other: a weight
+ * by its number of samples would depend on the other's. */
+static void summarize_evenly(const half halves[HALVES], graze_answer *answer) {
+    finding a = finding_of(&halves[0], &halves[1]), b = finding_of(&halves[1], &halves[0]);
+    set_answer(answer, rgb_scale(0.5, rgb_add(a.mean, b.mean)), rgb_scale(0.25, rgb_add(a.variance, b.variance)),
+               halves);
+}
+
+static void summarize(const half halves[HALVES], graze_answer *answer) {
+    if (halves[0].taken < halves[1].taken + 2 && halves[1].taken <= halves[0].taken)
+        summarize_together(halves, answer);
+    else
+        summarize_evenly(halves, answer);
 }
 
 static void add_control(path_control *sum, const path_control *control) {
@@ -71,31 +124,31 @@ static void add_control(path_control *sum, const path_control *control) {
     sum->whole += control->whole;
 }
 
-static estimate_luck take_one(replicates *r, estimate_sample *sample, void *user) {
-    int i = (int)(r->taken % ESTIMATE_REPLICATES);
-    sampler points = sampler_start(r->key[i], r->taken / ESTIMATE_REPLICATES);
+static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
+    int i = (int)(h->taken % IN_HALF);
+    sampler points = sampler_start(h->key[i], h->taken / IN_HALF);
     estimate_luck luck = ESTIMATE_NOISY;
     path_sample taken = sample(user, &points, &luck);
-    r->sum[i] = rgb_add(r->sum[i], taken.radiance);
+    h->sum[i] = rgb_add(h->sum[i], taken.radiance);
     for (int k = 0; k < taken.control_count; k++) {
-        add_control(&r->controls[k][i], &taken.controls[k]);
-        add_control(&r->totals[k], &taken.controls[k]);
+        add_control(&h->controls[k][i], &taken.controls[k]);
+        add_control(&h->totals[k], &taken.controls[k]);
     }
-    r->control_count = taken.control_count > r->control_count ? taken.control_count : r->control_count;
-    r->luck = luck > r->luck ? luck : r->luck;
-    r->taken++;
+    h->control_count = taken.control_count > h->control_count ? taken.control_count : h->control_count;
+    h->luck = luck > h->luck ? luck : h->luck;
+    h->taken++;
     return luck;
 }
 
-static void take_until(replicates *r, uint32_t goal, estimate_sample *sample, void *user) {
-    while (r->taken < goal)
-        (void)take_one(r, sample, user);
+static void take_until(half *h, uint32_t goal, estimate_sample *sample, void *user) {
+    while (h->taken < goal)
+        (void)take_one(h, sample, user);
 }
 
-static double samples_to_believe(const graze_trace_settings *s, const replicates *r, double value) {
-    if (r->luck < ESTIMATE_NOISY)
+static double samples_to_believe(const graze_trace_settings *s, estimate_luck luck, double value) {
+    if (luck < ESTIMATE_NOISY)
         return 0;
-    bool search = r->luck == ESTIMATE_SEARCH;
+    bool search = luck == ESTIMATE_SEARCH;
     if (value == 0 && search && !path_samples_lights(s) && s->floor == 0)
         return EMPTY_SEARCH_BELIEVED;
     if (value == 0)
@@ -104,44 +157,61 @@ static double samples_to_believe(const graze_trace_settings *s, const replicates
     return search ? fmax(unseen, SEARCH_BELIEVED) : unseen;
 }
 
-/* How many times too large the error is. */
-static double excess(const graze_trace_settings *s, const graze_answer *answer) {
-    double value = rgb_max(answer->value), allowed = s->error * fmax(value, s->floor);
-    return allowed > 0 ? rgb_max(answer->standard_error) / allowed : 0;
+/* Whether a half with `taken` samples has enough of them, as the other half's finding tells: both together would then
+ * have the error asked for. */
+static bool is_enough(const graze_trace_settings *s, const finding *other, uint32_t taken) {
+    double value = rgb_max(other->mean), allowed = s->error * fmax(value, s->floor);
+    double variance = rgb_max(other->variance) / HALVES * other->taken / taken;
+    return HALVES * (double)taken >= samples_to_believe(s, other->luck, value) && variance <= allowed * allowed;
 }
 
-/* Looks at the error after every doubling, until it is small enough or the limit is reached. An error that is small by
- * chance, because the samples happen to agree, was seldom small before; so it must have been at most twice as large
- * when there were half as many. */
-static bool refine(replicates *r, const graze_trace_settings *s, estimate_sample *sample, void *user,
+static bool is_within(const graze_trace_settings *s, const graze_answer *answer) {
+    double allowed = s->error * fmax(rgb_max(answer->value), s->floor);
+    return rgb_max(answer->standard_error) <= allowed;
+}
+
+/* Doubles each half's samples until the other finds them enough, or the limit is reached; and both halves' while the
+ * error of both together, which that was about, is not what was asked for. */
+static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
-    double before = 0;
-    for (uint64_t goal = FIRST_LOOK * ESTIMATE_REPLICATES;; goal *= 2) {
-        bool last = goal >= s->sample_limit;
-        take_until(r, last ? s->sample_limit : (uint32_t)goal, sample, user);
-        summarize(r, answer);
-        double now = excess(s, answer);
-        if (now <= 1 && before <= 2 && r->taken >= samples_to_believe(s, r, rgb_max(answer->value)))
+    uint32_t limit = s->sample_limit / HALVES, first = FIRST_LOOK * IN_HALF;
+    uint32_t goals[HALVES] = {first < limit ? first : limit, first < limit ? first : limit};
+    for (;;) {
+        for (int i = 0; i < HALVES; i++)
+            take_until(&halves[i], goals[i], sample, user);
+        const finding findings[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
+        bool enough[HALVES];
+        for (int i = 0; i < HALVES; i++)
+            enough[i] = is_enough(s, &findings[1 - i], halves[i].taken);
+        summarize(halves, answer);
+        bool all = enough[0] && enough[1];
+        if (all && is_within(s, answer))
             return true;
-        if (last)
+        bool going_on = false;
+        for (int i = 0; i < HALVES; i++)
+            if ((!enough[i] || all) && goals[i] < limit) {
+                goals[i] = goals[i] > limit / 2 ? limit : 2 * goals[i];
+                going_on = true;
+            }
+        if (!going_on)
             return false;
-        before = now;
     }
 }
 
 void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
               graze_answer *answer) {
-    replicates r = {.taken = 0};
+    half halves[HALVES] = {{.taken = 0}, {.taken = 0}};
     for (int i = 0; i < ESTIMATE_REPLICATES; i++)
-        r.key[i] = sampler_key(s->seed, stream, (uint32_t)i);
+        halves[i % HALVES].key[i / HALVES] = sampler_key(s->seed, stream, (uint32_t)i);
     *answer = (graze_answer){.converged = 1};
-    if (take_one(&r, sample, user) == ESTIMATE_EXACT) {
-        answer->value = r.sum[0];
+    if (take_one(&halves[0], sample, user) == ESTIMATE_EXACT) {
+        answer->value = halves[0].sum[0];
         answer->samples = 1;
     } else if (s->samples) {
-        take_until(&r, s->samples, sample, user);
-        summarize(&r, answer);
+        take_until(&halves[0], s->samples - s->samples / HALVES, sample, user);
+        take_until(&halves[1], s->samples / HALVES, sample, user);
+        summarize(halves, answer);
     } else {
-        answer->converged = refine(&r, s, sample, user, answer);
+        answer->converged = refine(halves, s, sample, user, answer);
     }
 }

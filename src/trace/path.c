@@ -268,7 +268,7 @@ static bool has_one_role(const scene_light *light) {
 static void add_known_light(path *p, const vertex *v, const light_receiver *receiver) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, p->depth > 0};
-    if (!receiver->every)
+    if (!receiver->every || p->scattered)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];

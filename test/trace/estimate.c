@@ -15,29 +15,29 @@ static int calls;
 
 /* exp(x + y) has the mean (e - 1)^2 over the unit square. */
 static const double smooth_mean = 2.9524924420125602;
-static rgb smooth(void *user, sampler *points, estimate_luck *luck) {
+static path_sample smooth(void *user, sampler *points, estimate_luck *luck) {
     (void)user;
     double u[2];
     sampler_2d(points, u);
     *luck = ESTIMATE_NOISY;
     calls++;
-    return rgb_gray(exp(u[0] + u[1]));
+    return (path_sample){.radiance = rgb_gray(exp(u[0] + u[1]))};
 }
 
 /* A quarter disk: 1 inside, 0 outside. */
-static rgb disk(void *user, sampler *points, estimate_luck *luck) {
+static path_sample disk(void *user, sampler *points, estimate_luck *luck) {
     (void)user;
     double u[2];
     sampler_2d(points, u);
     *luck = ESTIMATE_NOISY;
-    return rgb_gray(u[0] * u[0] + u[1] * u[1] < 1);
+    return (path_sample){.radiance = rgb_gray(u[0] * u[0] + u[1] * u[1] < 1)};
 }
 
-static rgb constant(void *user, sampler *points, estimate_luck *luck) {
+static path_sample constant(void *user, sampler *points, estimate_luck *luck) {
     (void)points;
     *luck = ESTIMATE_EXACT;
     calls++;
-    return *(rgb *)user;
+    return (path_sample){.radiance = *(rgb *)user};
 }
 
 static graze_trace_settings fixed(uint32_t samples) {
@@ -110,11 +110,11 @@ static void stops_at_the_error_asked_for(void **state) {
 }
 
 /* Zeros, as from a light that has not been found yet, or as from an empty pixel. */
-static rgb zero(void *user, sampler *points, estimate_luck *luck) {
+static path_sample zero(void *user, sampler *points, estimate_luck *luck) {
     double u[2];
     sampler_2d(points, u);
     *luck = *(estimate_luck *)user;
-    return rgb_gray(0);
+    return (path_sample){.radiance = rgb_gray(0)};
 }
 
 static void zeros_need_many_samples_unless_certain(void **state) {
@@ -130,10 +130,10 @@ static void zeros_need_many_samples_unless_certain(void **state) {
 }
 
 /* A search takes many samples however small their scatter. */
-static rgb search(void *user, sampler *points, estimate_luck *luck) {
+static path_sample search(void *user, sampler *points, estimate_luck *luck) {
     (void)user;
     *luck = ESTIMATE_SEARCH;
-    return rgb_gray(1 + 1e-3 * sampler_1d(points));
+    return (path_sample){.radiance = rgb_gray(1 + 1e-3 * sampler_1d(points))};
 }
 
 static void searches_need_many_samples(void **state) {
