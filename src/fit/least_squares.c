@@ -64,9 +64,9 @@ static graze_status solver_begin(solver *s, const fit_problem *problem, const gr
     size_t m = s->m, n = (size_t)s->n;
     s->observations = problem->observation_count ? problem->observation_count : m;
     if (s->observations <= n)
-        return report_error(report, NULL, "%zu measurements are too few for %zu parameters", s->observations, n);
+        return report_error(report, NULL, "too few values for %zu parameters: %zu", n, s->observations);
     if (m > INT_MAX || m > SIZE_MAX / sizeof(double) / n)
-        return report_error(report, NULL, "%zu measurements are too many", m);
+        return report_error(report, NULL, "too many values: %zu", m);
     s->parameters = calloc(n, sizeof *s->parameters);
     s->residuals = calloc(m, sizeof *s->residuals);
     s->scratch = calloc(m, sizeof *s->scratch);
