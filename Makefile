@@ -120,15 +120,16 @@ FUZZ := $(patsubst test/%.c,$(BUILD)/test/%,$(filter-out %/replay.c,$(wildcard t
 FUZZ_MAIN := $(BUILD)/test/fuzz/replay.o
 FUZZ_grid := $(BUILD)/obj/tools/brdfeval/grid.o $(BUILD)/obj/tools/brdfeval/evaluation.o
 FUZZ_FLAGS_records := -Wl,--wrap=read,--wrap=poll
+FUZZ_BASIS_measurements := fit
 $(BUILD)/test/fuzz/replay.o: test/fuzz/replay.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -c -o $@ $<
 define fuzz_rule
-PARTS_fuzz_$(1) := $(filter %.o,$(FUZZ_MAIN)) $(FUZZ_$(1)) $(call archives,base)
+PARTS_fuzz_$(1) := $(filter %.o,$(FUZZ_MAIN)) $(FUZZ_$(1)) $(call archives,$(or $(FUZZ_BASIS_$(1)),base))
 $(BUILD)/test/fuzz/$(1): test/fuzz/$(1).c $$(PARTS_fuzz_$(1)) $(BUILD)/flags
 	@mkdir -p $$(@D)
 	$$(call say,$$@)$$(CC) $$(ALL_CFLAGS) -Itest -MMD -MP -o $$@ $$< $$(PARTS_fuzz_$(1)) $(filter -%,$(FUZZ_MAIN)) \
-	    $(FUZZ_FLAGS_$(1)) $(call libs,base) $$(LDFLAGS)
+	    $(FUZZ_FLAGS_$(1)) $(call libs,$(or $(FUZZ_BASIS_$(1)),base)) $$(LDFLAGS)
 endef
 $(foreach target,$(notdir $(FUZZ)),$(eval $(call fuzz_rule,$(target))))
 tests: $(FUZZ)

@@ -106,8 +106,8 @@ GRAZE_API double graze_brdf_pair_weight(const graze_brdf *, graze_vec3 l, graze_
  * other coordinates, for roughnesses equal and very different, and views steep and grazing:
  *
  *   function                       tested  measured   time
- *   graze_brdf_albedo, new model   1e-9    8e-11      microseconds
- *                 other models     1e-9    8e-11      ten microseconds or some tens; hundreds where one roughness is
+ *   graze_brdf_albedo, new model   1e-9    1e-10      microseconds
+ *                 other models     1e-9    3e-10      ten microseconds or some tens; hundreds where one roughness is
  *                                                     more than 12 times the other
  *   graze_brdf_mean_albedo         1e-9    1e-10      microseconds; hundreds where the roughnesses differ
  *   graze_brdf_ward_acceptance     1e-9    1e-11      microseconds

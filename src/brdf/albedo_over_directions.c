@@ -17,6 +17,14 @@ typedef struct circles {
     double reach, finest; /* slopes beyond reach do not matter, those nearer than finest are much the same */
 } circles;
 
+/* E of a slope, and of that on the other side of the view. */
+static double sum_of_mirrored(const circles *c, double along, double across) {
+    double even = c->aa * along * along + c->bb * across * across, odd = 2 * c->ab * along * across;
+    if (even - fabs(odd) > brdf_farthest_slope * brdf_farthest_slope)
+        return 0;
+    return odd == 0 ? 2 * exp(-even) : exp(-(even + odd)) + exp(-(even - odd));
+}
+
 /* The integral of E over the azimuth, from the slope nearest to 0 on the circle to both sides. */
 static double integrate_circle(const circles *c, double lz) {
     double hz = lz + c->vz, sine = sqrt(fmax((1 - lz) * (1 + lz), 0));
@@ -27,20 +35,16 @@ static double integrate_circle(const circles *c, double lz) {
     int count = 12 + (int)(end * radius / c->finest);
     double step = end / count, turn_x = cos(step / 2), turn_y = sin(step / 2);
     double x = 1, y = 0; /* cosine and sine of half the azimuth */
-    double last = 0, sum = exp(-c->aa * nearest * nearest);
+    double sum = exp(-c->aa * nearest * nearest);
     for (int i = 1; i <= count; ++i) {
         double turned = x * turn_x - y * turn_y;
         y = x * turn_y + y * turn_x;
         x = turned;
         double along = nearest + 2 * radius * y * y, across = 2 * radius * x * y;
-        double even = c->aa * along * along + c->bb * across * across, odd = 2 * c->ab * along * across;
-        last = 0;
-        if (even - fabs(odd) > brdf_farthest_slope * brdf_farthest_slope)
-            continue;
-        last = odd == 0 ? 2 * exp(-even) : exp(-(even + odd)) + exp(-(even - odd));
-        sum += last;
+        double value = sum_of_mirrored(c, along, across);
+        sum += i < count ? value : value / 2;
     }
-    return step * (sum - last / 2);
+    return step * sum;
 }
 
 static double weigh(const void *context, double lz) {
@@ -79,7 +83,8 @@ double brdf_albedo_over_directions(const graze_brdf *brdf, graze_vec3 v) {
     /* lz of the slopes at the ends of reach, along the view */
     double low = fmax((vz * (1 - reach * reach) - 2 * reach * sine) / square, 0);
     double high = reach * (1 + vz) < sine ? (vz * (1 - reach * reach) + 2 * reach * sine) / square : 1;
-    brdf_points points = {1, {vz}};
+    brdf_points points = brdf_no_points;
+    brdf_points_add(&points, vz);
     brdf_ends ends = brdf->model == GRAZE_BRDF_WARD ? BRDF_ENDS_ROOTS : BRDF_ENDS_SMOOTH;
     double integral = brdf_integrate(weigh, &c, low, high, &points, ends) / (4 * brdf_pi) / ax / ay;
     switch (brdf->model) {

@@ -50,15 +50,14 @@ static double along_narrower(const void *context, double x) {
 static double along_wider(const void *context, double y) {
     slope_mean m = *(const slope_mean *)context;
     m.tan2 = m.wider * y * (m.wider * y);
-    const brdf_points none = {0, {0}};
-    return exp(-y * y) * brdf_integrate(along_narrower, &m, 0, brdf_farthest_slope, &none, BRDF_ENDS_ROOTS);
+    return exp(-y * y) * brdf_integrate(along_narrower, &m, 0, brdf_farthest_slope, &brdf_no_points, BRDF_ENDS_ROOTS);
 }
 
 double graze_brdf_mean_albedo(const graze_brdf *brdf) {
     const graze_brdf in_range = brdf_in_range(brdf);
     double narrower = fmin(in_range.alpha_x, in_range.alpha_y), wider = fmax(in_range.alpha_x, in_range.alpha_y);
-    const slope_mean mean = {brdf->model, narrower, wider, 0};
-    const brdf_points none = {0, {0}};
+    const slope_mean mean = {.model = brdf->model, .narrower = narrower, .wider = wider};
     brdf_integrand *integrand = narrower < wider ? along_wider : along_radius;
-    return fmin(4 / brdf_pi * brdf_integrate(integrand, &mean, 0, brdf_farthest_slope, &none, BRDF_ENDS_ROOTS), 1);
+    double integral = brdf_integrate(integrand, &mean, 0, brdf_farthest_slope, &brdf_no_points, BRDF_ENDS_ROOTS);
+    return fmin(4 / brdf_pi * integral, 1);
 }

@@ -3,7 +3,7 @@
 #include "brdf/pair_kernels.h"
 
 /* Terms of hz^2 - hx^2 - hy^2. */
-enum { TERMS = 18 };
+enum { SQUARE_TERMS = 6, TERMS = 3 * SQUARE_TERMS };
 
 /* The sum of the terms, with a relative error of 2^-100 and an absolute one, the terms being about 1, of 2^-580: each
  * pass adds 48 bits (Ogita, Rump, Oishi: "Accurate sum and dot product", 2005). */
@@ -22,7 +22,7 @@ static double_double sum_of_terms(double *terms) {
 
 /* (hi + lo)^2 as the sum of six terms. */
 static void square_terms(double hi, double lo, double *terms) {
-    const double_double products[3] = {exact_product(hi, hi), exact_product(2 * hi, lo), exact_product(lo, lo)};
+    const double_double products[] = {exact_product(hi, hi), exact_product(2 * hi, lo), exact_product(lo, lo)};
     for (int i = 0; i < 3; ++i) {
         terms[2 * i] = products[i].hi;
         terms[2 * i + 1] = products[i].lo;
@@ -32,14 +32,14 @@ static void square_terms(double hi, double lo, double *terms) {
 /* hz^2 - hx^2 - hy^2; the same bits with x and y exchanged. */
 static double_double difference_of_squares(graze_vec3 l, graze_vec3 v) {
     double_double hx = exact_sum(l.x, v.x), hy = exact_sum(l.y, v.y), hz = exact_positive_sum(l.z, v.z);
-    double terms[TERMS], x[6], y[6];
+    double terms[TERMS], x[SQUARE_TERMS], y[SQUARE_TERMS];
     square_terms(hz.hi, hz.lo, terms);
     square_terms(hx.hi, hx.lo, x);
     square_terms(hy.hi, hy.lo, y);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < SQUARE_TERMS; ++i) {
         double_double both = exact_sum(x[i], y[i]);
-        terms[6 + 2 * i] = -both.hi;
-        terms[7 + 2 * i] = -both.lo;
+        terms[SQUARE_TERMS + 2 * i] = -both.hi;
+        terms[SQUARE_TERMS + 2 * i + 1] = -both.lo;
     }
     return sum_of_terms(terms);
 }

@@ -5,13 +5,15 @@
 /* A function, nowhere negative, of x and of what else it needs. */
 typedef double brdf_integrand(const void *context, double x);
 
-enum { BRDF_MOST_POINTS = 14 };
+enum { BRDF_MOST_POINTS = 13 };
 
 /* Where an integrand is not smooth, in ascending order. */
 typedef struct brdf_points {
     int count;
     double at[BRDF_MOST_POINTS];
 } brdf_points;
+
+static const brdf_points brdf_no_points = {.count = 0};
 
 void brdf_points_add(brdf_points *, double x);
 

@@ -74,11 +74,12 @@ double brdf_slope_mean(const brdf_slope_plane *plane, brdf_integrand *across, co
     weighted w = {across, context};
     if (plane->all_in_reach && !kink)
         return sum_of_all(&w) / brdf_pi;
-    brdf_points points = {0, {0}};
+    brdf_points points = brdf_no_points;
     add_border(&points, plane, brdf_ellipse_above_surface(plane));
     double low = fmax(points.at[0], -brdf_farthest_slope),
            high = fmin(points.at[points.count - 1], brdf_farthest_slope);
-    brdf_points_add(&points, 0);
+    /* next to the horizon, within some 1/lean of 0 the weight (15) rises from 0 to almost 2 */
+    brdf_points_add(&points, 1 / sqrt(plane->lean));
     if (kink)
         add_border(&points, plane, *kink);
     return brdf_integrate(weigh, &w, low, high, &points, BRDF_ENDS_ROOTS) / brdf_pi;

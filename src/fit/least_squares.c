@@ -31,7 +31,7 @@ enum { CALLS_FIRST = 30, CALLS_MAX = 4000, POINT_ARRAYS = 7, RELEASES_MAX = 4 };
 
 typedef struct solver {
     const fit_problem *problem;
-    size_t m;
+    size_t m, observations;
     int n;
     double *parameters;          /* n, inside their ranges */
     double *residuals, *scratch; /* m each */
@@ -62,10 +62,11 @@ static void solver_free(solver *s) {
 static graze_status solver_begin(solver *s, const fit_problem *problem, const graze_report *report) {
     *s = (solver){.problem = problem, .m = problem->residual_count, .n = problem->parameter_count};
     size_t m = s->m, n = (size_t)s->n;
-    if (m <= n)
-        return report_error(report, NULL, "%zu measurements are too few for %zu parameters", m, n);
+    s->observations = problem->observation_count ? problem->observation_count : m;
+    if (s->observations <= n)
+        return report_error(report, NULL, "too few values for %zu parameters: %zu", n, s->observations);
     if (m > INT_MAX || m > SIZE_MAX / sizeof(double) / n)
-        return report_error(report, NULL, "%zu measurements are too many", m);
+        return report_error(report, NULL, "too many values: %zu", m);
     s->parameters = calloc(n, sizeof *s->parameters);
     s->residuals = calloc(m, sizeof *s->residuals);
     s->scratch = calloc(m, sizeof *s->scratch);
@@ -204,7 +205,7 @@ static void find_errors(solver *s, fit_minimum *minimum) {
     make_finite(s->jacobian, s->m * (size_t)s->n);
     int n = s->free_count;
     scale_free_columns(s);
-    minimum->degrees = s->m - (size_t)n;
+    minimum->degrees = s->observations - (size_t)n;
     minimum->condition = n == 0;
     if (n == 0)
         return;

@@ -21,6 +21,7 @@ typedef struct fit_range {
 
 typedef struct fit_problem {
     size_t residual_count;
+    size_t observation_count; /* what the residuals stand for, if that is more; 0: each for one */
     int parameter_count;
     const fit_range *ranges; /* one a parameter */
     void *user;
@@ -44,7 +45,7 @@ typedef struct fit_estimate {
 
 typedef struct fit_minimum {
     double sum;              /* of the squared residuals */
-    size_t degrees;          /* of freedom: residuals less parameters that are not at a bound; may be 0 */
+    size_t degrees;          /* of freedom: observations less parameters that are not at a bound; may be 0 */
     double condition;        /* of the Jacobian with columns of length 1: 1 is best; 0: some are undetermined */
     bool converged;          /* false: MINPACK gave up after thousands of steps */
     size_t start;            /* the number of the starting point that led here */

@@ -56,6 +56,8 @@ typedef struct fit_source {
 } fit_source;
 
 #define FIT_COSINE_MIN 1e-6
+/* The largest value and weight; the smallest weight is its inverse. Squares of such residuals can be added up. */
+#define FIT_NUMBER_MAX 1e100
 
 typedef struct fit_pair {
     graze_vec3 l, v;
@@ -70,7 +72,8 @@ typedef struct fit_channel_name {
 typedef struct fit_measurements {
     size_t count;
     fit_pair *pairs;
-    double *values; /* count x channel_count, a pair's channels in a row: the BRDF in 1/sr, finite */
+    double *values; /* count x channel_count, a pair's channels in a row: the BRDF in 1/sr, at most FIT_NUMBER_MAX in
+                       size */
     size_t channel_count;
     fit_channel_name *channels;
     size_t source_count;
@@ -87,6 +90,9 @@ typedef struct fit_read_options {
 /* Adds the measurements of a file ("-": standard input), whose channels must be those already there. After an error
  * the measurements can only be freed. */
 graze_status fit_read(fit_measurements *, const char *file, const fit_read_options *, const graze_report *);
+/* The same of a file's content, of that name. */
+graze_status fit_read_bytes(fit_measurements *, const char *name, const char *bytes, size_t length,
+                            const fit_read_options *, const graze_report *);
 void fit_measurements_free(fit_measurements *);
 
 /* Words for a convention's value and for how it is known. */

@@ -8,7 +8,7 @@
 #include "base/whole_file.h"
 #include "fit/reader.h"
 
-static graze_status read_bytes(whole_file *f, const char *file, const place *where, const graze_report *report) {
+static graze_status read_whole(whole_file *f, const char *file, const place *where, const graze_report *report) {
     return strcmp(file, "-") == 0 ? whole_file_read(f, STDIN_FILENO, "it", where, report)
                                   : whole_file_open(f, file, "it", where, report);
 }
@@ -72,6 +72,8 @@ static graze_status read_format(fit_reader *r) {
     fit_format told = r->options->conventions.format;
     r->source->origins.format = told == FIT_FORMAT_ANY ? FIT_OF_FILE : FIT_TOLD;
     r->source->conventions.format = told == FIT_FORMAT_ANY ? recognise(r) : told;
+    if (r->source->conventions.format != FIT_FORMAT_MERL && memchr(r->bytes, 0, (size_t)(r->end - r->bytes)))
+        return report_error(r->report, &(place){.file = r->where.file}, "is neither text nor a MERL table");
     fit_reader_rewind(r);
     switch (r->source->conventions.format) {
     case FIT_FORMAT_CORNELL:
@@ -103,35 +105,42 @@ static fit_source *new_source(fit_measurements *m, const char *name) {
 }
 
 /* What some spreadsheets begin their tables with. */
-static size_t byte_order_mark(const whole_file *f) {
-    return f->length >= 3 && memcmp(f->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+static size_t byte_order_mark(const char *bytes, size_t length) {
+    return length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+graze_status fit_read_bytes(fit_measurements *m, const char *name, const char *bytes, size_t length,
+                            const fit_read_options *options, const graze_report *report) {
+    const place where = {.file = name};
+    size_t mark = byte_order_mark(bytes, length);
+    fit_source *source = new_source(m, name);
+    if (!source)
+        return report_out_of_memory(report);
+    fit_reader r = {.bytes = bytes + mark,
+                    .end = bytes + length,
+                    .separator = ' ',
+                    .where = where,
+                    .options = options,
+                    .measurements = m,
+                    .source = source,
+                    .report = report};
+    graze_status status = read_format(&r);
+    if (status != GRAZE_OK)
+        return status;
+    question_unit(&r);
+    if (source->pairs == 0)
+        return report_error(report, &where, "there is no measurement of two directions above the surface");
+    return GRAZE_OK;
 }
 
 graze_status fit_read(fit_measurements *m, const char *file, const fit_read_options *options,
                       const graze_report *report) {
     const char *name = strcmp(file, "-") == 0 ? "standard input" : file;
     const place where = {.file = name};
-    whole_file bytes = {0};
-    fit_source *source = new_source(m, name);
-    if (!source)
-        return report_out_of_memory(report);
-    graze_status status = read_bytes(&bytes, file, &where, report);
-    if (status == GRAZE_OK) {
-        size_t mark = byte_order_mark(&bytes);
-        fit_reader r = {.bytes = bytes.bytes + mark,
-                        .end = bytes.bytes + bytes.length,
-                        .separator = ' ',
-                        .where = where,
-                        .options = options,
-                        .measurements = m,
-                        .source = source,
-                        .report = report};
-        status = read_format(&r);
-        if (status == GRAZE_OK)
-            question_unit(&r);
-        if (status == GRAZE_OK && source->pairs == 0)
-            status = report_error(report, &where, "there is no measurement of two directions above the surface");
-    }
-    free(bytes.bytes);
+    whole_file all = {0};
+    graze_status status = read_whole(&all, file, &where, report);
+    if (status == GRAZE_OK)
+        status = fit_read_bytes(m, name, all.bytes, all.length, options, report);
+    free(all.bytes);
     return status;
 }

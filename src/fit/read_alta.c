@@ -96,6 +96,8 @@ static graze_status read_output_name(alta *a, const fit_word *name) {
 
 static graze_status read_dimensions(alta *a) {
     double inputs, outputs;
+    if (a->inputs)
+        return report_error(a->reader->report, &a->reader->where, "a second #DIM");
     graze_status status = fit_reader_number(a->reader, "number of inputs", &inputs);
     if (status == GRAZE_OK)
         status = fit_reader_number(a->reader, "number of values", &outputs);
@@ -185,7 +187,7 @@ graze_status fit_read_alta(fit_reader *r) {
         if (fit_reader_count_words(r) == 0)
             continue;
         if (r->line.text[0] == '#') {
-            status = read_comment(&a);
+            status = a.chosen ? GRAZE_OK : read_comment(&a);
             continue;
         }
         if (!a.chosen)

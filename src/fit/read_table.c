@@ -105,6 +105,8 @@ static graze_status take_names(table *t) {
         r->where.line--;
         return split_names(t, &comment);
     }
+    if (line_is_empty(r))
+        return report_error(r->report, &(place){.file = r->where.file}, "there is no table in it");
     return report_error(r->report, &(place){.file = r->where.file, .line = r->where.line},
                         "the columns have no names: give them with --columns");
 }

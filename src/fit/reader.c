@@ -12,7 +12,7 @@
 #include "base/vector.h"
 
 void fit_reader_rewind(fit_reader *r) {
-    r->next = r->bytes;
+    r->next = r->at = r->bytes;
     r->where.line = 0;
     r->line = (fit_word){r->bytes, 0, 1};
 }
@@ -270,9 +270,15 @@ graze_status fit_reader_add(fit_reader *r, graze_vec3 incident, graze_vec3 outgo
     graze_status status = reserve(m, r->report);
     if (status != GRAZE_OK)
         return status;
+    if (!(weight >= 1 / FIT_NUMBER_MAX && weight <= FIT_NUMBER_MAX))
+        return report_error(r->report, &r->where, "a weight of %g is out of range", weight);
     double cosine = cosine_in_values(source, incident, outgoing);
-    for (size_t k = 0; k < m->channel_count; k++)
-        m->values[m->count * m->channel_count + k] = values[k] / cosine;
+    for (size_t k = 0; k < m->channel_count; k++) {
+        double value = values[k] / cosine;
+        if (!(fabs(value) <= FIT_NUMBER_MAX))
+            return report_error(r->report, &r->where, "a value of %g is out of range", values[k]);
+        m->values[m->count * m->channel_count + k] = value;
+    }
     if (source->conventions.mirror == FIT_MIRROR_SAME)
         outgoing = vec3_make(-outgoing.x, -outgoing.y, outgoing.z);
     bool exchange = source->conventions.light == FIT_LIGHT_OUTGOING;

@@ -21,8 +21,8 @@ static graze_status search(const fit_measurements *m, const fit_settings *settin
     fit_estimate estimates[PARAMETERS_MAX], rival_estimates[PARAMETERS_MAX];
     fit_minimum best = {.estimates = estimates}, rival;
     double starts[ROUGHNESSES * RATIOS * PARAMETERS_MAX];
-    size_t count = 0, stride = m->count / SEARCH_PAIRS + 1;
-    graze_status status = fit_lobe_problem_create(&p, m, settings, first, channels, channels > 1, stride, report);
+    size_t count = 0, thinning = m->count / SEARCH_PAIRS + 1;
+    graze_status status = fit_lobe_problem_create(&p, m, settings, first, channels, channels > 1, thinning, report);
     for (int i = 0; i < ROUGHNESSES && status == GRAZE_OK; i++)
         for (int k = 0; k < (settings->anisotropic ? RATIOS : 1); k++) {
             double root = sqrt(start_ratio[k]);

@@ -158,6 +158,8 @@ static void warn_of_parameter(const findings *r, const fit_result *f, size_t par
         }
     }
     const char *model = model_name(f->model), *name = parameters[parameter].name;
+    if (parameter == 0 && !r->settings->anisotropic)
+        name = "alpha";
     if (count > 0 && channels == 1)
         report_warning(report, NULL, "%s: %s is %s", model, name, weakness);
     else if (count > 0)
@@ -165,16 +167,22 @@ static void warn_of_parameter(const findings *r, const fit_result *f, size_t par
                        channels, r->measurements->channels[first].text);
 }
 
-static void warn_of_quality(const fit_result *f, const char *where, const fit_quality *q, const graze_report *report) {
+static void warn_of_quality(const findings *r, const fit_result *f, const char *where, const fit_quality *q,
+                            const graze_report *report) {
     const char *model = model_name(f->model);
     if (!q->converged)
         report_warning(report, NULL, "%s%s: the least squares did not converge", model, where);
     if (q->condition > FIT_CONDITION_MAX)
         report_warning(report, NULL, "%s%s: the data hardly tell the parameters from each other (condition %.3g)",
                        model, where, q->condition);
-    if (q->has_rival)
+    /* What is undetermined always has others that are as good. */
+    if (!q->has_rival || q->condition == 0)
+        return;
+    if (r->settings->anisotropic)
         report_warning(report, NULL, "%s%s: another minimum is as good, at alpha %.4g %.4g", model, where,
                        q->rival_alpha_x, q->rival_alpha_y);
+    else
+        report_warning(report, NULL, "%s%s: another minimum is as good, at alpha %.4g", model, where, q->rival_alpha_x);
 }
 
 static void warn(const findings *r, const fit_result *f, const graze_report *report) {
@@ -188,7 +196,7 @@ static void warn(const findings *r, const fit_result *f, const graze_report *rep
         char where[64] = "";
         if (f->fit_count > 1)
             snprintf(where, sizeof where, " (%.50s)", r->measurements->channels[i].text);
-        warn_of_quality(f, where, &f->qualities[i], report);
+        warn_of_quality(r, f, where, &f->qualities[i], report);
     }
 }
 

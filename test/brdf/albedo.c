@@ -289,6 +289,37 @@ static void other_coordinates(void **state) {
     }
 }
 
+/* Where little is easily missed: found by searches for what went wrong without the point or the factor named. */
+static void easily_missed(void **state) {
+    (void)state;
+    static const struct {
+        int model;
+        double alpha_x, alpha_y, cosine, azimuth;
+    } cases[] = {
+        /* a thin layer, next to the ellipse of slopes above the surface, within which it gets out of reach */
+        {ACCEPTANCE, .7108, 2.1e-6, .7981, .7064},
+        {GRAZE_BRDF_WARD_DUER, .02342, .0001207, .02532, .1942},
+        /* the rise of the new model's weight next to the horizon */
+        {GRAZE_BRDF_GMD, 5.47949e-6, 5.47949e-6, 3.4194e-12, 3.44344},
+        {GRAZE_BRDF_GMD, 7.02611e-6, 1.334, 4.22811e-7, 3.67428},
+        {GRAZE_BRDF_GMD, 3.3843, 1.89905e-6, 4.79654e-7, 3.57258},
+        {GRAZE_BRDF_GMD, .1511, .1511, 5.9e-9, .6721},
+        /* circles of slopes of which the farther half is at the end of reach */
+        {GRAZE_BRDF_WARD, .3, .3, .536, 0},
+        {GRAZE_BRDF_WARD_DUER, .3, .3, .536, 0},
+        {GRAZE_BRDF_WARD_NEUMANN, .2, .2, .69, 0},
+        /* the highest l in reach, just below the normal */
+        {GRAZE_BRDF_WARD_NEUMANN, .04625, .03471, .8885, .06778},
+    };
+    for (unsigned i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        int model = cases[i].model;
+        const graze_brdf brdf = {(graze_brdf_model)(model < 0 ? 0 : model), cases[i].alpha_x, cases[i].alpha_y};
+        graze_vec3 v = direction(cases[i].cosine, cases[i].azimuth);
+        assert_near(model < 0 ? graze_brdf_ward_acceptance(&brdf, v) : graze_brdf_albedo(&brdf, v),
+                    reference(model, &brdf, v), 1e-10);
+    }
+}
+
 /* Light does not care which way round the grain is described. */
 static void symmetries(void **state) {
     (void)state;
@@ -434,6 +465,7 @@ int main(void) {
         cmocka_unit_test(ward_duer_next_to_the_horizon),
         cmocka_unit_test(extreme_anisotropy),
         cmocka_unit_test(other_coordinates),
+        cmocka_unit_test(easily_missed),
         cmocka_unit_test(symmetries),
         cmocka_unit_test(acceptance),
         cmocka_unit_test(bounded_everywhere),

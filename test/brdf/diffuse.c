@@ -65,6 +65,24 @@ static void directions_are_exact(void **state) {
     }
 }
 
+/* A quarter more of t, which has bits to spare, turns x and y by a right angle, to the bit. */
+static void quarter_turns_are_exact(void **state) {
+    (void)state;
+    for (int i = 0; i < 64; ++i) {
+        double s = (i + .5) / 64;
+        for (int k = -31; k < 32; ++k) { /* but not half-way between axes */
+            double t = (k < 0 ? 1 : 0) + k / 256.;
+            graze_vec3 l = graze_diffuse_sample(normal, s, t).l;
+            for (int turn = 1; turn < 4; ++turn) {
+                t += t < .75 ? .25 : -.75;
+                graze_vec3 turned = graze_diffuse_sample(normal, s, t).l;
+                l = (graze_vec3){-l.y, l.x, l.z};
+                assert_true(turned.x == l.x && turned.y == l.y && turned.z == l.z);
+            }
+        }
+    }
+}
+
 static void numbers_outside_count_as_the_nearest_inside(void **state) {
     (void)state;
     const double last = 1 - 0x1p-53, inside[] = {0, last, 0, last, last, .5, 0};
@@ -99,6 +117,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values),
         cmocka_unit_test(directions_are_exact),
+        cmocka_unit_test(quarter_turns_are_exact),
         cmocka_unit_test(numbers_outside_count_as_the_nearest_inside),
         cmocka_unit_test(samples_follow_their_density),
     };

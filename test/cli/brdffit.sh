@@ -81,7 +81,9 @@ check "what one plane cannot tell is warned of" grep -qE "undetermined|hardly te
 printf 'theta_i,theta_o,f\n' >matt.csv
 for t in 0 20 40 60; do printf '30,%d,.1\n' $t; done >>matt.csv
 "$brdffit" -m gmd matt.csv >out 2>err
-check "a matt surface has no lobe" grep -qE "rs is (at its lower bound|known to worse|undetermined)" err
+check "a matt surface has no roughness" grep -qx "brdffit: warning: gmd: alpha is undetermined" err
+check "... and no other that is as good" test "$(grep -c "as good" err)" = 0
+check "... and no lobe" grep -qE "rs is (at its lower bound|known to worse|undetermined)" err
 
 # Pictures.
 fails "the plot's suffix" 1 "'fit.jpg' ends in none of .svg .png .gp" "" "$brdffit" --plot fit.jpg plane.csv
@@ -111,6 +113,12 @@ fails "a picture that cannot be made" 1 "cannot create it" "" "$brdffit" --plot 
 # Mistakes.
 fails "no file" 1 "no file of measurements" "" "$brdffit"
 fails "a file that is not there" 1 "none.csv: cannot open it" "" "$brdffit" none.csv
+fails "a directory" 1 "$work: cannot read it: Is a directory" "" "$brdffit" "$work"
+fails "an empty file" 1 "standard input: there is no table in it" "" "$brdffit" -
+printf 'theta_i,theta_o,f\n30,40,\000\n' >zero.csv
+fails "no text" 1 "zero.csv: is neither text nor a MERL table" "" "$brdffit" zero.csv
+fails "values beyond all measure" 1 "standard input:2: a value of 1e+200 is out of range" \
+    'theta_i,theta_o,f\n30,40,1e200\n' "$brdffit" -
 fails "standard input twice" 1 "only one of the files" "" "$brdffit" - -
 fails "bad numbers have a place" 1 "standard input:2:4: expected a finite number, the theta_o, not 'x'" \
     'theta_i,theta_o,f\n30,x,1\n' "$brdffit" -

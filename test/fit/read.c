@@ -273,8 +273,8 @@ static void malformed(void **state) {
         const char *text, *message;
         fit_format format;
     } cases[] = {
-        {"", "no names", FIT_FORMAT_ANY},
-        {"# only a comment\n", "no names", FIT_FORMAT_ANY},
+        {"", "there is no table in it", FIT_FORMAT_ANY},
+        {"# only a comment\n\n", "there is no table in it", FIT_FORMAT_ANY},
         {"30 10 40 200 .25\n", ":1: the columns have no names", FIT_FORMAT_ANY},
         {"theta_i,phi_i,phi_o,f\n1,2,3,4\n", "do not tell two directions", FIT_FORMAT_ANY},
         {"theta_i,theta_o,theta_l,f\n1,2,3,4\n", "tells what an earlier one does", FIT_FORMAT_ANY},
@@ -314,7 +314,11 @@ static void malformed(void **state) {
         {"#intheta 30\n#inphi 0\n#format: phi theta DSF\n", ":3: expected 'format: theta phi'", FIT_FORMAT_ANY},
         {"#intheta 30\n#inphi 0\n1 2\n", ":3:4: the line ends", FIT_FORMAT_ANY},
         {"#intheta 30\n#inphi 0\n1 2 3 4\n", ":3:7: expected the line's end", FIT_FORMAT_ANY},
+        {"#DIM 3 1\n#PARAM_IN RUSIN_TH_TD_PD\n#DIM 3 2\n", ":3: a second #DIM", FIT_FORMAT_ANY},
         {"theta_i", "is no MERL table", FIT_FORMAT_MERL},
+        {"theta_i,theta_o,f\n1,2,-1e101\n", ":2: a value of -1e+101 is out of range", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f,weight\n1,2,3,1e101\n", ":2: a weight of 1e+101 is out of range", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f,weight\n1,2,3,1e-101\n", ":2: a weight of 1e-101 is out of range", FIT_FORMAT_ANY},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         fit_measurements m = {0};

@@ -6,7 +6,7 @@
 #include "tools/brdffit/findings.h"
 #include "tools/common/model_name.h"
 
-enum { LABEL_WIDTH = 16, CELL_WIDTH = 24, CELL_SIZE = 2 * NUMBER_TEXT_SIZE + 16 };
+enum { LABEL_WIDTH = 16, CELL_WIDTH = 27, CELL_SIZE = 2 * NUMBER_TEXT_SIZE + 16 };
 
 static void append_padded(record_buffer *out, const char *text, size_t width) {
     record_append_text(out, text);
