@@ -40,7 +40,7 @@ typedef struct graze_trace_settings {
     int reflection_limit;      /* -lr: > 0: no more reflections than this before a light; 0: roulette; < 0: both */
     double minimum_weight;     /* -lw: below this weight paths are dropped (reflection_limit > 0) or play roulette */
     double specular_threshold; /* -st: rough lobes up to this specularity, 0 .. 1, are diffuse for indirect light */
-    double error;              /* stop when the standard error is below error x value; > 0 */
+    double error;              /* stop when the standard error is about error x value or less; > 0 */
     double floor;              /* ... or below error x floor, in the unit of the value; >= 0 */
     uint32_t samples;          /* not 0: exactly this many paths, at least 2 (or 1, where all paths are equal) */
     uint32_t sample_limit;     /* with `error`: never more paths than this */
@@ -74,7 +74,8 @@ typedef struct graze_hit {
 
 typedef struct graze_answer {
     graze_rgb value;
-    graze_rgb standard_error; /* of `value`, from the scatter of 16 replicates; 0 where all samples were equal */
+    graze_rgb standard_error; /* of `value`, from the scatter of 16 replicates; 0 where all samples were equal, and
+                                 1e-8 x value or more where light was integrated without sampling */
     uint32_t samples;         /* paths taken */
     int converged;            /* 0: sample_limit was reached before the error asked for */
 } graze_answer;
@@ -86,6 +87,13 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
 /* Traces one ray. `stream` tells rays apart: the same scene, settings, ray and stream give the same bits, on any
  * thread, in any order; use the ray's number. The settings must have passed graze_trace_check. `hit` may be null; for
  * GRAZE_IRRADIANCE it is of nothing. A ray that is not finite or has no direction answers 0.
+ *
+ * Samples come in two halves. Each goes on until the other has found that the answer will have the error asked for:
+ * a half that judged itself would stop where it happens to agree with itself, and be wrong more often than it says. The
+ * error stated is therefore sometimes a little above the one asked for.
+ *
+ * What unshadowed lights throw directly on the first point that is no mirror is integrated rather than sampled
+ * (graze/brdf_light.h), as far as the other half finds no shadows: without error, where there are none.
  *
  * The standard error is estimated from what the samples found. Light that none of them found, such as that which a
  * small lamp throws on a diffuse wall by way of a mirror, is in neither the value nor its error. */

@@ -26,10 +26,10 @@ BRDF_INLINE double field_exp(double x) {
 BRDF_INLINE double field_erfcx(double y) {
     y = y < 7.5 ? y : 7.5;
     double s = 1.4 * ((y - 3) / (y + 3)) + .4, s2 = s * s, s4 = s2 * s2;
-    double low = (0x1.2f65fc060f7b1p-2 + s * -0x1.75ad2bb78e46cp-2) +
-                 s2 * (0x1.b21b951b6d18cp-3 + s * -0x1.7ab1172a94605p-4);
-    double middle = (0x1.d8e49251832bap-6 + s * -0x1.6a0ff26764728p-8) +
-                    s2 * (0x1.a0e686eadc47cp-13 + s * 0x1.901b840ff18dep-13);
+    double low =
+        (0x1.2f65fc060f7b1p-2 + s * -0x1.75ad2bb78e46cp-2) + s2 * (0x1.b21b951b6d18cp-3 + s * -0x1.7ab1172a94605p-4);
+    double middle =
+        (0x1.d8e49251832bap-6 + s * -0x1.6a0ff26764728p-8) + s2 * (0x1.a0e686eadc47cp-13 + s * 0x1.901b840ff18dep-13);
     double high = (-0x1.044bedb3434fbp-15 + s * -0x1.e55e4313d25d4p-18) +
                   s2 * (0x1.0571db8e36eeep-19 + s * 0x1.ab6a9fe5b3765p-22);
     double highest = (-0x1.d2001f3e97c62p-24 + s * -0x1.9366d3387ab31p-26) + s2 * 0x1.39d9a07456226p-28;

@@ -110,8 +110,8 @@ static double least(double a, double b, double c) {
 
 /* Whether there is nothing of the field as near to the three as they are to each other. */
 static bool is_nothing(double base, const place *from, const place *middle, const place *to) {
-    double length = fabs(middle->a - from->a) + fabs(middle->b - from->b) + fabs(to->a - middle->a) +
-                    fabs(to->b - middle->b);
+    double length =
+        fabs(middle->a - from->a) + fabs(middle->b - from->b) + fabs(to->a - middle->a) + fabs(to->b - middle->b);
     double reach = farthest + length;
     return least(from->a, middle->a, to->a) > reach || least(-from->a, -middle->a, -to->a) > reach ||
            (base > 0 && least(from->b, middle->b, to->b) > reach) ||

@@ -166,27 +166,35 @@ static double samples_to_believe(const graze_trace_settings *s, estimate_luck lu
     return search ? fmax(unseen, SEARCH_BELIEVED) : unseen;
 }
 
-/* Whether a half with `taken` samples has enough of them, as the other half's finding tells: both together would then
- * have the error asked for. */
-static bool is_enough(const graze_trace_settings *s, const finding *other, uint32_t taken) {
-    double value = rgb_max(other->mean), allowed = s->error * fmax(value, s->floor);
-    double variance = rgb_max(other->variance) / HALVES * other->taken / taken;
-    return HALVES * (double)taken >= samples_to_believe(s, other->luck, value) && variance <= allowed * allowed;
+/* How many times too large the error of both halves together would be if the other half had `taken` samples, too, as
+ * its finding tells. */
+static double excess(const graze_trace_settings *s, const finding *found, uint32_t taken) {
+    double allowed = s->error * fmax(rgb_max(found->mean), s->floor);
+    double variance = rgb_max(found->variance) / HALVES * found->taken / taken;
+    return allowed > 0 ? sqrt(variance) / allowed : 0;
 }
 
-/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. */
+/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. An error that is
+ * small by chance, because the samples happen to agree, was seldom small before; so it must have been at most twice as
+ * large when there were half as many. */
 static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
     uint32_t limit = s->sample_limit / HALVES;
     bool enough[HALVES] = {false, false};
+    double before[HALVES] = {0, 0};
     for (uint64_t goal = FIRST_LOOK * IN_HALF;; goal *= 2) {
         bool last = goal >= limit;
         for (int i = 0; i < HALVES; i++)
             if (!enough[i])
                 take_until(&halves[i], last ? limit : (uint32_t)goal, sample, user);
         const finding findings[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
-        for (int i = 0; i < HALVES; i++)
-            enough[i] = enough[i] || is_enough(s, &findings[1 - i], halves[i].taken);
+        for (int i = 0; i < HALVES; i++) {
+            const finding *other = &findings[1 - i];
+            double now = excess(s, other, halves[i].taken);
+            double needed = samples_to_believe(s, other->luck, rgb_max(other->mean)) / HALVES;
+            enough[i] = enough[i] || (now <= 1 && before[i] <= 2 && halves[i].taken >= needed);
+            before[i] = now;
+        }
         if (last || (enough[0] && enough[1])) {
             summarize(halves, answer);
             return enough[0] && enough[1];

@@ -44,7 +44,7 @@ typedef struct path_sample {
     rgb radiance;
     path_control controls[PATH_CONTROLS];
     int control_count; /* the others are 0 */
-    bool noisy;     /* random numbers were drawn: another sample may differ */
+    bool noisy;        /* random numbers were drawn: another sample may differ */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall
                      */
 } path_sample;

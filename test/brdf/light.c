@@ -182,7 +182,7 @@ static void identities(void **state) {
     (void)state;
     static const graze_vec3 outer[] = {{-2, -1, 1}, {-1, -1, 1}, {-1, 1, 1}, {-2, 1, 1}},
                             hole[] = {{-1.8, -.5, 1}, {-1.8, .5, 1}, {-1.2, .5, 1}, {-1.2, -.5, 1}},
-                            seamed[] = {{-2, -1, 1},   {-1, -1, 1},   {-1, 1, 1},    {-2, 1, 1},     {-2, -1, 1},
+                            seamed[] = {{-2, -1, 1},    {-1, -1, 1},   {-1, 1, 1},    {-2, 1, 1},     {-2, -1, 1},
                                         {-1.8, -.5, 1}, {-1.8, .5, 1}, {-1.2, .5, 1}, {-1.2, -.5, 1}, {-1.8, -.5, 1}},
                             left[] = {{-2, -1, 1}, {-2, 1, 1}, {-1.4, 1, 1}, {-1.4, -1, 1}},
                             right[] = {{-1.4, -1, 1}, {-1.4, 1, 1}, {-1, 1, 1}, {-1, -1, 1}};
@@ -203,8 +203,9 @@ static void identities(void **state) {
     static const graze_vec3 square[] = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
     assert_near(graze_diffuse_polygon(square, 4), 4 / (pi * sqrt(2)) * atan(1 / sqrt(2)), 1e-14);
     for (double radius = 1e-3; radius < 1e3; radius *= 3)
-        assert_near(graze_diffuse_ellipse((graze_vec3){0, 0, 2}, (graze_vec3){radius, 0, 0}, (graze_vec3){0, radius, 0}),
-                    radius * radius / (radius * radius + 4), 1e-9);
+        assert_near(
+            graze_diffuse_ellipse((graze_vec3){0, 0, 2}, (graze_vec3){radius, 0, 0}, (graze_vec3){0, radius, 0}),
+            radius * radius / (radius * radius + 4), 1e-9);
 }
 
 /* A light that the lobe hardly reaches is as dim as it ought to be: nothing that cancels is left. */
@@ -240,8 +241,8 @@ static void nothing(void **state) {
 /* Whatever comes, results are in 0 .. 1. */
 static void extremes(void **state) {
     (void)state;
-    static const double numbers[] = {0, -0., 1, -1, 1e-9, -1e-9, 1e-150, 1e9, -1e9, 1e150, 1e300, DBL_MAX, INFINITY,
-                                     -INFINITY, NAN, .5, .7, DBL_MIN};
+    static const double numbers[] = {0,     -0.,   1,       -1,       1e-9,      -1e-9, 1e-150, 1e9, -1e9,
+                                     1e150, 1e300, DBL_MAX, INFINITY, -INFINITY, NAN,   .5,     .7,  DBL_MIN};
     const int count = sizeof numbers / sizeof *numbers;
     uint64_t seed = 5;
     for (int i = 0; i < (is_short_run() ? 3000 : 30000); ++i) {
@@ -262,7 +263,7 @@ static void extremes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quadrature), cmocka_unit_test(whole_sky),        cmocka_unit_test(horizon),
+        cmocka_unit_test(quadrature), cmocka_unit_test(whole_sky),         cmocka_unit_test(horizon),
         cmocka_unit_test(identities), cmocka_unit_test(far_from_the_lobe), cmocka_unit_test(nothing),
         cmocka_unit_test(extremes),
     };

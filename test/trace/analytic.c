@@ -33,10 +33,11 @@ static graze_answer ask(const char *text, graze_trace_settings settings, graze_r
     return ask_of_model(text, GRAZE_BRDF_GMD, settings, ray);
 }
 
-/* The answer must lie within four standard errors, and the error must be what was asked for. */
+/* The answer must lie within four standard errors, and the error be what was asked for or not twice as much: that is
+ * decided by samples other than those whose error it is. */
 static void assert_answer(graze_answer answer, double truth, double relative_error) {
     assert_true(answer.converged);
-    if (answer.standard_error.g > 1.0001 * relative_error * answer.value.g)
+    if (answer.standard_error.g > 2 * relative_error * answer.value.g)
         fail_msg("error %g of %g is above %g", answer.standard_error.g, answer.value.g, relative_error);
     if (fabs(answer.value.g - truth) > 4 * answer.standard_error.g + 1e-9 * truth)
         fail_msg("%.9g +- %.3g, but the truth is %.9g", answer.value.g, answer.standard_error.g, truth);
@@ -47,6 +48,7 @@ static graze_trace_settings settings_for(graze_strategy strategy, int bounces) {
     s.strategy = strategy;
     s.ambient_bounces = bounces;
     s.error = 0.002;
+    s.sample_limit = 1u << 18;
     return s;
 }
 
@@ -271,7 +273,7 @@ static void stopping_is_honest(void **state) {
             variance += answer.standard_error.g * answer.standard_error.g;
             covered += fabs(answer.value.g - truth) <= 2.131 * answer.standard_error.g;
         }
-        if (fabs(sum / COUNT - truth) > 4 * sqrt(variance) / COUNT || covered < 0.9 * COUNT || covered > 0.97 * COUNT)
+        if (fabs(sum / COUNT - truth) > 4 * sqrt(variance) / COUNT || covered < 0.92 * COUNT || covered > 0.97 * COUNT)
             fail_msg("--error %g: mean %g of %g, %d of %d covered", s.error, sum / COUNT, truth, covered, COUNT);
     }
     graze_scene_destroy(scene);
