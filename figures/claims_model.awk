@@ -1,6 +1,6 @@
 # Claims on the reflectance model, Figures 3 to 7 and beside them; see claims.awk.
 quantity == "plane" {
-    key = roughness SUBSEP what SUBSEP $column["theta_l"]
+    key = subject SUBSEP what SUBSEP $column["theta_l"]
     view = $column["theta_v"]
     value = $column["f"]
     f[key, sprintf("%.1f", view)] = value
@@ -19,11 +19,11 @@ quantity == "plane" {
 
 quantity == "albedo" {
     view = sprintf("%.5f", $column["theta_v"])
-    albedo[roughness, what, view] = $column["a"]
-    if ($column["a"] > largest[roughness, what])
-        largest[roughness, what] = $column["a"]
+    albedo[subject, what, view] = $column["a"]
+    if ($column["a"] > largest[subject, what])
+        largest[subject, what] = $column["a"]
     if (what == "gmd")
-        accepted[roughness, view] = $column["A"]
+        accepted[subject, view] = $column["A"]
 }
 
 quantity == "anisotropic" {

@@ -205,7 +205,7 @@ AVX2 static size_t scan_block(const char *text, const char *limit, const size_t 
 }
 
 bool record_words_available(void) {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("popcnt");
 }
 
 size_t record_words_scan(const char **at, const char *limit, double *values, size_t count) {

@@ -10,7 +10,7 @@
 
 static graze_status read_whole(whole_file *f, const char *file, const place *where, const graze_report *report) {
     return strcmp(file, "-") == 0 ? whole_file_read(f, STDIN_FILENO, "it", where, report)
-                                  : whole_file_open(f, file, "it", where, report);
+                                  : whole_file_read_path(f, file, "it", where, report);
 }
 
 /* A comment's first word behind its #. */

@@ -162,19 +162,15 @@ static graze_status begin_points(alta *a) {
 
 static graze_status read_point(alta *a) {
     fit_reader *r = a->reader;
-    double x[INPUTS_MAX], value;
+    double x[INPUTS_MAX];
     for (size_t i = 0; i < a->inputs; i++) {
         graze_status status = fit_reader_number(r, "input", &x[i]);
         if (status != GRAZE_OK)
             return status;
     }
-    for (size_t i = 0, k = 0; i < a->outputs; i++) {
-        graze_status status = fit_reader_number(r, "value", &value);
-        if (status != GRAZE_OK)
-            return status;
-        if (a->chosen[i])
-            a->values[k++] = value;
-    }
+    graze_status status = fit_reader_values(r, a->chosen, a->outputs, a->values);
+    if (status != GRAZE_OK)
+        return status;
     vec3 light, view;
     a->convert(a, x, &light, &view);
     return fit_reader_add(r, light, view, 1, a->values);

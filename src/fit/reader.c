@@ -114,6 +114,17 @@ graze_status fit_reader_number(fit_reader *r, const char *what, double *value) {
                         (int)(word.length < 60 ? word.length : 60), word.text);
 }
 
+graze_status fit_reader_values(fit_reader *r, const bool *chosen, size_t count, double *values) {
+    graze_status status = GRAZE_OK;
+    for (size_t i = 0; i < count && status == GRAZE_OK; i++) {
+        double value;
+        status = fit_reader_number(r, "value", &value);
+        if (status == GRAZE_OK && chosen[i])
+            *values++ = value;
+    }
+    return status;
+}
+
 graze_status fit_reader_line_end(fit_reader *r) {
     fit_word word;
     if (fit_reader_word(r, &word) && word.length > 0)

@@ -34,6 +34,8 @@ bool fit_reader_word(fit_reader *, fit_word *);
 size_t fit_reader_count_words(const fit_reader *);
 /* The next word as a finite number; `what` names it in the message. */
 graze_status fit_reader_number(fit_reader *, const char *what, double *);
+/* The next `count` words as finite numbers, of which `values` gets the chosen ones. */
+graze_status fit_reader_values(fit_reader *, const bool *chosen, size_t count, double *values);
 graze_status fit_reader_line_end(fit_reader *);
 graze_status fit_reader_error(const fit_reader *, const fit_word *, const char *text);
 bool fit_word_is(const fit_word *, const char *text);

@@ -2,6 +2,7 @@
 #include "image/legend.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "image/font.h"
 
@@ -11,6 +12,20 @@ enum { LEAST_ROWS = 5 };
 /* A dot of the letters has half a pixel and one more for each so many of the picture's height. */
 static const double height_of_dot = 360;
 static const double largest_scale = 8;
+
+image_legend_entry *image_legend_entries(const image_levels *l, int decimals, int *count) {
+    image_legend_entry *entries = calloc((size_t)l->count + 1, sizeof *entries);
+    *count = 0;
+    for (int level = l->first; entries && level < l->first + l->count; level++) {
+        image_legend_entry *entry = &entries[*count];
+        if (!image_level_color(l, level, entry->color))
+            continue;
+        entry->at = (double)level / l->scale->divisions;
+        image_scale_text(l->scale, level, decimals, entry->text);
+        ++*count;
+    }
+    return entries;
+}
 
 static int width_in_dots(const image_legend *legend) {
     int text = 0, all = image_text_width(legend->label);

@@ -3,7 +3,7 @@
 #define IMAGE_LEGEND_H
 
 #include "image/canvas.h"
-#include "image/value_scale.h"
+#include "image/levels.h"
 
 typedef struct image_legend_entry {
     double at; /* 0 at the lower end of the scale, 1 at the upper one */
@@ -22,6 +22,10 @@ typedef struct image_legend {
     const char *note;
     unsigned char note_color[3];
 } image_legend;
+
+/* An entry for each level, with at most so many decimals as image_scale_text has it; to be freed. Null when out of
+ * memory. */
+image_legend_entry *image_legend_entries(const image_levels *, int decimals, int *count);
 
 /* In pixels; `scale` pixels to a dot of the letters. */
 typedef struct image_legend_size {

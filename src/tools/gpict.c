@@ -6,6 +6,7 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "picture/picture.h"
+#include "tools/common/picture_header.h"
 #include "tools/common/render_options.h"
 #include "tools/common/tool.h"
 
@@ -105,12 +106,11 @@ static bool needs_layers(const gpict_options *o) {
 /* Gives the picture its header, writes it, and says what --max-samples cut short. */
 static graze_status finish(const gpict_options *o, const picture_settings *settings, image *picture, size_t unconverged,
                            const tool_arguments *arguments, const graze_report *report) {
-    char view[512], command[2000];
+    char view[512];
+    picture_header header;
     rad_view_print(&settings->view, view, sizeof view);
-    options_command_line(command, sizeof command, arguments->argc, arguments->argv);
     picture->view = view;
-    picture->command = command;
-    picture->software = "Graze " GRAZE_VERSION;
+    picture_header_set(&header, picture, arguments);
     picture->display_exposure = o->exposure;
     if (unconverged)
         report_warning(report, NULL, "%zu of %zu pixels reached --max-samples before --error", unconverged,
@@ -170,7 +170,7 @@ int main(int argc, char **argv) {
     option table[GPICT_OPTION_COUNT + RENDER_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "View", 0, 0, NULL, NULL},
         {"-vf", OPTION_CUSTOM, &o.view, "FILE", "the view of a view file or picture", 0, 0, take_view_file, NULL},
-        {"-vt", OPTION_CUSTOM, &o.view, "T", "type, as in -vtv: v perspective, l parallel, c h a s", 0, 0,
+        {"-vt", OPTION_SUFFIX, &o.view, "T", "type, as in -vtv: v perspective, l parallel, c h a s", 0, 0,
          take_view_type, print_view_type},
         {"-vp", OPTION_REAL3, &o.view.point, "X Y Z", "view point", 0, 0, NULL, NULL},
         {"-vd", OPTION_REAL3, &o.view.direction, "X Y Z", "view direction", 0, 0, NULL, NULL},

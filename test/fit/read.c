@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "fit/written_file.h"
+#include "fit/measured_text.h"
 
 static const double pi = 3.14159265358979323846;
 static const fit_read_options plain = {0};
@@ -325,7 +325,7 @@ static void malformed(void **state) {
         const fit_read_options o = {.conventions = {.format = cases[i].format}};
         graze_status status = read_text(&m, cases[i].text, &o);
         fit_measurements_free(&m);
-        if (status != GRAZE_INPUT_ERROR || !strstr(messages, cases[i].message) || !strstr(messages, written_name))
+        if (status != GRAZE_INPUT_ERROR || !strstr(messages, cases[i].message) || !strstr(messages, measured_name))
             fail_msg("case %zu, '%s': status %d, %s", i, cases[i].text, (int)status, messages);
     }
 }
