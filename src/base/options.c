@@ -205,6 +205,6 @@ graze_status options_parse(const option_table *table, options_arguments *a, int 
             return status;
     }
     *operand_count = a->count - i;
-    *operands = a->words + i;
+    *operands = i > 0 ? a->words + i : a->words; /* null if there are no words at all */
     return GRAZE_OK;
 }

@@ -81,6 +81,16 @@ static graze_status check_outputs(const gpict_options *o, const graze_report *re
     return *o->contours ? image_check_writable(o->contours, report) : GRAZE_OK;
 }
 
+/* Once the view has given the size. A picture with contours has its legend besides. */
+static graze_status check_sizes(const gpict_options *o, const picture_settings *picture, const graze_report *report) {
+    graze_status status = GRAZE_OK;
+    for (int i = 0; i < o->pictures.count && status == GRAZE_OK; i++)
+        status = image_check_size(o->pictures.files[i], picture->width, picture->height, report);
+    if (status == GRAZE_OK && *o->contours)
+        status = image_check_size(o->contours, picture->width, picture->height, report);
+    return status;
+}
+
 static graze_status write_outputs(const gpict_options *o, const image *picture, const graze_report *report) {
     graze_status worst = GRAZE_OK;
     for (int i = 0; i < o->pictures.count; i++) {
@@ -143,8 +153,10 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
         status = tool_check_scenes(arguments, false, report);
     if (status == GRAZE_OK) {
         rad_view_fit(&picture.view, &picture.pixel_aspect, &picture.width, &picture.height);
-        status = graze_scene_load(&scene, arguments->operands, (size_t)arguments->operand_count, &build, report);
+        status = check_sizes(o, &picture, report);
     }
+    if (status == GRAZE_OK)
+        status = graze_scene_load(&scene, arguments->operands, (size_t)arguments->operand_count, &build, report);
     if (status == GRAZE_OK)
         status = picture_render(&result, scene, &settings, &picture, &unconverged, report);
     if (status == GRAZE_OK)
