@@ -97,8 +97,10 @@ static void assert_models(const graze_model_choice *choices, size_t count, const
                              "a sphere a 0 0 4 0 0 0 1\nb sphere b 0 0 4 4 0 0 1\n"
                              "c sphere c 0 0 4 8 0 0 1\nl sphere l 0 0 4 0 4 0 1\n",
                              &settings);
-    if (!scene)
+    if (!scene) {
         fail_msg("%s", messages);
+        return;
+    }
     for (size_t i = 0; i < 3; i++) {
         assert_string_equal(scene_name(scene, scene->surfaces[i].primitive), ((const char *[]){"a", "b", "c"}[i]));
         assert_int_equal(scene->materials[scene->surfaces[i].material].reflector.model, expected[i]);
