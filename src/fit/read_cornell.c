@@ -68,7 +68,7 @@ static graze_status read_pair(cornell *c) {
     fit_reader *r = c->reader;
     double angles[4];
     for (int i = 0; i < 4; i++) {
-        graze_status status = fit_reader_number(r, names[i], &angles[i]);
+        graze_status status = fit_reader_angle(r, names[i], i % 2 ? FIT_AZIMUTH : FIT_POLAR, &angles[i]);
         if (status != GRAZE_OK)
             return status;
     }

@@ -143,7 +143,7 @@ static bool draw_all(image_canvas *canvas, const image_legend *legend, const ima
 bool image_draw_false_color(image_canvas *canvas, const image_values *values, const image *backdrop,
                             const image_false_color *f) {
     *canvas = (image_canvas){0, 0, NULL};
-    image_legend legend = {.label = f->label, .user = f};
+    image_legend legend = {.label = f->label, .user = f, .centered = f->scale.low < 0};
     image_levels levels = levels_of(f);
     image_legend_entry *entries = image_legend_entries(&levels, f->decimals, &legend.count);
     if (!entries)

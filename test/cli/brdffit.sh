@@ -141,6 +141,23 @@ printf 'theta_i,theta_o,f\n30,40,\000\n' >zero.csv
 fails "no text" 1 "zero.csv: is neither text nor a MERL table" "" "$brdffit" zero.csv
 fails "values beyond all measure" 1 "standard input:2: a value of 1e+200 is out of range" \
     'theta_i,theta_o,f\n30,40,1e200\n' "$brdffit" -
+for value in 1e300 1e100 1e99; do
+    sed "5s/,[^,]*\$/,$value/" plane.csv >huge.csv
+    fails "... $value" 1 "huge.csv:5: a value of ${value/e/e+} is out of range: a BRDF is at most 1e+50" "" "$brdffit" huge.csv
+done
+# All that a fit is given is as large as can be, or as small.
+awk -F, -v OFS=, 'NR == 1 { print $0, "weight" } NR > 1 { $5 = "1e50"; print $0, NR % 2 ? "1e50" : "1e-50" }' plane.csv >huge.csv
+for loss in cosine plain log; do
+    "$brdffit" -w- --loss $loss --anisotropic --output json huge.csv >huge.json 2>err
+    check "the largest values and weights that are read have a JSON, --loss $loss" "${PYTHON:-python3}" -c '
+import json
+def refuse(word): raise ValueError(word)
+found = json.load(open("huge.json"), parse_constant=refuse)
+assert all(m["residual_20"] > 1e100 and m["rms_20"] > 1e49 for m in found["models"])'
+done
+fails "angles beyond all measure" 1 "standard input:2:4: expected a polar angle of at most 180 degrees in size, not '1e9'" \
+    'theta_i,theta_o,f\n30,1e9,1\n' "$brdffit" -
+fails "a header alone" 1 "standard input: there are no lines of data" 'theta_i,theta_o,f\n' "$brdffit" -
 fails "standard input twice" 1 "only one of the files" "" "$brdffit" - -
 fails "bad numbers have a place" 1 "standard input:2:4: expected a finite number, the theta_o, not 'x'" \
     'theta_i,theta_o,f\n30,x,1\n' "$brdffit" -

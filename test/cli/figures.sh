@@ -83,8 +83,8 @@ unsound "models that differ" "apart" plane-0.1-ward-duer.csv '$1 == 0 && $3 == 3
 unsound "a weight that scatters" "paired sampling" weight-0.1-pair.csv '$1 == 60 { $3 *= 1.05 } 1'
 unsound "a weight that is biased" "paired sampling: mean" weight-0.1-pair.csv '$1 == 89 { $2 += .001 } 1'
 unsound "a weight above 1" "paired sampling" weight-0.1-pair.csv 'NR == 9 { $4 = 1.000001 } 1'
-unsound "a pair that is rejected" "paired.*rejected at any angle" weight-0.1-pair.csv '$1 == 20 { $5 = 1 / 4181 } 1'
-unsound "a pair that is rejected near the horizon" "paired.*rejected" weight-0.1-pair.csv '$1 == 89.9 { $5 = 1 / 4181 } 1'
+unsound "a pair that is rejected" "paired.*rejected at any angle" weight-0.1-pair.csv '$1 == 20 { $5 = 1 / 75025 } 1'
+unsound "a pair that is rejected near the horizon" "paired.*rejected" weight-0.1-pair.csv '$1 == 89.9 { $5 = 1 / 75025 } 1'
 unsound "Ward's samples that are not rejected" "Ward's sampling: share.*at 89 deg" weight-0.1-sample.csv '$1 == 89 { $5 -= .001 } 1'
 unsound "a peak at the horizon where one is above it" "from 50.*above the horizon (22)" plane-0.25-gmd.csv \
     '$1 == 50 && $3 > 89.85 { $5 = 3.6 } 1'
