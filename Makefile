@@ -52,6 +52,7 @@ SHARED    := $(LIB)/libgraze.so.$(VERSION)
 LIBRARIES := $(STATIC) $(SHARED) $(LIB)/$(SONAME) $(LIB)/libgraze.so $(LIB)/graze/oiio.so
 
 .PHONY: all programs tests
+# all: the tools and the library
 all: $(TOOLS) $(LIBRARIES)
 programs: $(TOOLS) $(LIB)/graze/oiio.so
 tests: $(TESTS)
