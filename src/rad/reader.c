@@ -404,28 +404,28 @@ static graze_status read_text(rad_reader *reader, const whole_file *text, const 
     return status;
 }
 
+/* Reads a text if it was `got`, and frees it. */
+static graze_status read_got(rad_reader *reader, graze_status got, whole_file *text, const char *name,
+                             const rad_context *context, const rad_sink *sink) {
+    graze_status status = got ? got : read_text(reader, text, name, context, sink);
+    free(text->bytes);
+    return status;
+}
+
 graze_status rad_reader_file(rad_reader *reader, const char *path, const rad_context *context, const rad_sink *sink) {
     const char *name = arena_copy_text(reader->memory, path, strlen(path));
     if (!name)
         return report_out_of_memory(reader->report);
     whole_file text;
-    graze_status status = whole_file_read_path(&text, path, path, context->parent, reader->report);
-    if (status)
-        return status;
-    status = read_text(reader, &text, name, context, sink);
-    free(text.bytes);
-    return status;
+    graze_status got = whole_file_read_path(&text, path, path, context->parent, reader->report);
+    return read_got(reader, got, &text, name, context, sink);
 }
 
 graze_status rad_reader_standard_input(rad_reader *reader, const rad_context *context, const rad_sink *sink) {
     static const char name[] = "standard input";
     whole_file text;
-    graze_status status = whole_file_read(&text, STDIN_FILENO, name, context->parent, reader->report);
-    if (status)
-        return status;
-    status = read_text(reader, &text, name, context, sink);
-    free(text.bytes);
-    return status;
+    graze_status got = whole_file_read(&text, STDIN_FILENO, name, context->parent, reader->report);
+    return read_got(reader, got, &text, name, context, sink);
 }
 
 /* ---- Commands ---- */
@@ -438,12 +438,8 @@ graze_status rad_reader_shell(rad_reader *reader, const char *command, const rad
     if (!kept)
         return report_out_of_memory(reader->report);
     whole_file text;
-    graze_status status = rad_command_output(&text, command, context->directory, context->parent, reader->report);
-    if (status)
-        return status;
-    status = read_text(reader, &text, kept, context, sink);
-    free(text.bytes);
-    return status;
+    graze_status got = rad_command_output(&text, command, context->directory, context->parent, reader->report);
+    return read_got(reader, got, &text, kept, context, sink);
 }
 
 graze_status rad_reader_command(rad_reader *reader, const char *command, const rad_context *context,
