@@ -52,6 +52,7 @@ SHARED    := $(LIB)/libgraze.so.$(VERSION)
 LIBRARIES := $(STATIC) $(SHARED) $(LIB)/$(SONAME) $(LIB)/libgraze.so $(LIB)/graze/oiio.so
 
 .PHONY: all programs tests
+# all: the tools and the library
 all: $(TOOLS) $(LIBRARIES)
 programs: $(TOOLS) $(LIB)/graze/oiio.so
 tests: $(TESTS)
@@ -307,6 +308,8 @@ install: all
 	scripts/manual-links $(filter man/man3/%,$(MANUALS)) | while read -r link page; do \
 	    echo ".so man3/$$page" >$(dest)/share/man/man3/$$link && chmod 644 $(dest)/share/man/man3/$$link || exit 1; done
 	$(INSTALL) -m 644 LICENSE $(dest)/share/doc/graze
+	$(INSTALL) -d $(dest)/share/doc/graze/figures
+	$(INSTALL) -m 644 man/figures/README.md man/figures/*.png $(dest)/share/doc/graze/figures
 
 # uninstall: remove what install put there
 uninstall:

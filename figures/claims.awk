@@ -1,6 +1,14 @@
-# Checks the claims that go with the figures against the tables that `draw` had filled: QUANTITY-ROUGHNESS-WHAT.csv, or
-# QUANTITY-SUBJECT-WHAT.csv. Prints a line a claim, the number found beside the expected one; the exit status is 1 where one does
-# not hold. Numbers in brackets are the paper's equations. The claims themselves are in claims_*.awk, to be given after this file.
+# Checks the claims that go with the figures against the tables that `draw` had filled. Prints a line a claim, the number found
+# beside the expected one; the exit status is 1 where one does not hold. Numbers in brackets are the paper's equations. The claims
+# themselves are in claims_*.awk, to be given after this file.
+#
+# Tables are called QUANTITY-SUBJECT-WHAT.csv. The subject is a roughness, or two:
+#   plane, albedo - ROUGHNESS - MODEL    anisotropic - 0.05x0.2 - MODEL    weight - ROUGHNESS - SAMPLING
+# a material:
+#   fit, fit75, curve, half, times - linoleum - MODEL
+# a model, of the grazing scene, or a part of the linoleum sphere:
+#   grazing - MODEL - STRATEGY    linoleum - PART - MODEL, or "difference"
+# and table1.csv, the paper's Table 1, has neither.
 BEGIN {
     FS = ","
     pi = atan2(0, -1)
@@ -13,8 +21,8 @@ FNR == 1 {
     sub(/\.csv$/, "", name)
     split(name, part, "-")
     quantity = part[1]
-    roughness = part[2]
-    what = substr(name, length(quantity) + length(roughness) + 3)
+    subject = part[2]
+    what = substr(name, length(quantity) + length(subject) + 3)
     delete column
     for (i = 1; i <= NF; i++)
         column[$i] = i

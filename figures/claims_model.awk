@@ -1,6 +1,6 @@
 # Claims on the reflectance model, Figures 3 to 7 and beside them; see claims.awk.
 quantity == "plane" {
-    key = roughness SUBSEP what SUBSEP $column["theta_l"]
+    key = subject SUBSEP what SUBSEP $column["theta_l"]
     view = $column["theta_v"]
     value = $column["f"]
     f[key, sprintf("%.1f", view)] = value
@@ -19,11 +19,11 @@ quantity == "plane" {
 
 quantity == "albedo" {
     view = sprintf("%.5f", $column["theta_v"])
-    albedo[roughness, what, view] = $column["a"]
-    if ($column["a"] > largest[roughness, what])
-        largest[roughness, what] = $column["a"]
+    albedo[subject, what, view] = $column["a"]
+    if ($column["a"] > largest[subject, what])
+        largest[subject, what] = $column["a"]
     if (what == "gmd")
-        accepted[roughness, view] = $column["A"]
+        accepted[subject, view] = $column["A"]
 }
 
 quantity == "anisotropic" {
@@ -145,7 +145,7 @@ function check_model() {
     check_albedo("Figure 7", "0.2", "0.960000 0.949092 0.897580 0.821169 0.805507 0.898875")
     check_other_albedos("Figure 7", "0.2")
     check_anisotropic()
-    check_weights("sample", "Ward's sampling", 2, "0.135 0.83 0.96")
-    check_weights("pair", "paired sampling", 1, "0.032 0.075 0.047")
+    check_weights("sample", "Ward's sampling", 2, "0.135 0.827 0.964")
+    check_weights("pair", "paired sampling", 1, "0.0320 0.0754 0.0467")
     at_most(most_rejected["pair"], 0, "weight, alpha 0.1, paired sampling: share of samples rejected at any angle")
 }

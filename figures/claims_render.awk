@@ -1,18 +1,24 @@
 # Claims on the renderings, Figures 2, 8, 10 and 11; see claims.awk.
 quantity == "grazing" && $column["surface"] == "surface" {
-    way = roughness "-" what
+    way = subject "-" what
     # 8 x 8 points.
     block = int(($column["x"] + 4) * 1.5) SUBSEP int(($column["y"] + 5) * 1.5)
     light[way] += $column["value"]
     variance[way] += $column["error"] ^ 2
     light_in[way, block] += $column["value"]
+    if ($column["x"] > -1.3 && $column["x"] < 1.3)
+        light_before[way, $column["y"]] += $column["value"]
     variance_in[way, block] += $column["error"] ^ 2
     if (!(block in blocks))
         block_count++
     blocks[block]
 }
 
-quantity == "linoleum" && roughness == "highlight" && what == "difference" && NF > 1 {
+quantity == "grazing" && $column["surface"] == "luminaire" && $column["x"] > -1.3 && $column["x"] < 1.3 {
+    light_of_luminaire[subject "-" what, $column["y"]] += $column["value"]
+}
+
+quantity == "linoleum" && subject == "highlight" && what == "difference" && NF > 1 {
     points++
     point_x[points] = $column["x"]
     point_y[points] = $column["y"]
@@ -49,6 +55,17 @@ function compare_blocks(a, b,    block, count, error, off, squares, factors) {
     }
 }
 
+# The largest sum over a row of points in front of the luminaire, and the same of it.
+function brightest_row(sums, way,    key, part, most) {
+    for (key in sums) {
+        split(key, part, SUBSEP)
+        if (part[1] == way)
+            most = greater(most, sums[key])
+    }
+    return most
+}
+function over_luminaire(way) { return ratio(brightest_row(light_before, way), brightest_row(light_of_luminaire, way)) }
+
 function relative_variance(way) { return ratio(variance[way], light[way] ^ 2) }
 
 function check_grazing(    new, error) {
@@ -56,6 +73,8 @@ function check_grazing(    new, error) {
     above(mean_factor, 1.2, \
           "Figure 2: luminance by sampling without weights over evaluation, mean of blocks of 0.67 deg (paper: they differ)")
     above(largest_factor, 1.5, "Figure 2: ... at most")
+    above(over_luminaire("ward-duer-light"), 1, \
+          "Figure 2: brightest row of the reflection by Ward-Duer over the luminaire itself (it reflects more than it gets)")
     compare_blocks("gmd-brdf", "gmd-light")
     new = ratio(light["gmd-brdf"], light["gmd-light"])
     error = new == "" ? "" : new * sqrt(relative_variance("gmd-brdf") + relative_variance("gmd-light"))
@@ -64,6 +83,8 @@ function check_grazing(    new, error) {
     near(mean_factor, 1, 0.05, "Figure 8: ... mean of blocks of 0.67 deg")
     at_most(most_apart, 5, "Figure 8: ... blocks of 0.67 deg apart at most, in standard errors")
     at_most(scatter, 1.3, "Figure 8: ... the root mean square of these")
+    at_most(over_luminaire("gmd-light"), 1, \
+            "Figure 8: brightest row of the reflection by the new model over the luminaire itself (it reflects no more)")
 }
 
 # In eight directions around the highlight's centre: the largest ratio of the new model to Ward-Duer, and where it is.

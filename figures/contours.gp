@@ -8,9 +8,15 @@ curves = words(levels)
 name(k) = word(levels, k).(k == curves ? " cd/m²" : "")
 line(k) = 10 + k
 do for [k = 1:curves] { set linetype 10 + k linecolor rgb word(colours, k) linewidth 2 }
-caption = ""
+caption = number == 2 ? "Red: the reflection is brighter than the luminaire itself." : ""
 file(i) = sprintf("%s/grazing-%s.csv", data, i == 1 ? file1 : file2)
 decades(value) = log10(value > 1 ? value : 1)
+# A reflection is shown as such however bright it is.
+stats file(1) using (strcol("surface") eq "luminaire" ? column("value") : NaN) name "luminaire" nooutput
+brightest = decades(luminaire_max)
+of_luminaire = brightest + 1
+too_bright = brightest + 0.5
+shade(value, surface) = surface eq "luminaire" ? of_luminaire : decades(value) > brightest ? too_bright : decades(value)
 
 # Lines are of the surface alone. Through single values they would show each one's noise: 3 x 3 are averaged, in both panels.
 on_surface(value) = strcol("surface") eq "surface" ? decades(value) : NaN
@@ -30,8 +36,9 @@ set surface
 set multiplot
 unset grid
 unset colorbox
-set palette defined (0 "#FFFFFF", 4.1 "#BEBEBE", 4.1 "#FFE9A0", 4.5 "#FFE9A0")
-set cbrange [0:4.5]
+set palette maxcolors 0 defined (0 "#FFFFFF", brightest + 0.1 "#BEBEBE", brightest + 0.1 "#C1121F", \
+    brightest + 0.9 "#C1121F", brightest + 0.9 "#FFE9A0", of_luminaire "#FFE9A0")
+set cbrange [0:of_luminaire]
 set xrange [-4:4]
 set yrange [-4.2:2.4]
 set tmargin at screen 0.83
@@ -46,7 +53,7 @@ do for [i = 1:2] {
     set label 2 "luminaire" at 0, 1.42 center font ",10" front
     set datafile separator comma
     set datafile columnheaders
-    plot file(i) using "x":"y":(decades(column("value"))) with image
+    plot file(i) using "x":"y":(shade(column("value"), strcol("surface"))) with image
     set datafile separator whitespace
     unset datafile columnheaders
     unset label

@@ -4,13 +4,13 @@ heading = "Figure 9. Fits to 222 pairs: synthetic linoleum"
 curves = 5
 name(k) = k == 5 ? "● data" : word(titles, k)
 line(k) = k == 5 ? 6 : k
-caption = "The paper’s measurements were not published. Here: values of the new model with the noise that gives it the paper’s error."
+caption = "The paper’s data were not published: these are the new model’s values with noise. Ward’s and Ward–Neumann’s fits end at a bound, with no diffuse part."
 # The data have a dot in their name in place of a line.
 set linetype 6 linecolor rgb "#FFFFFF"
 set multiplot
 incidences = "30 60 70 75 80 85"
-tops = "8 25 50 90 200 800"
-steps = "2 5 10 20 50 200"
+tops = "20 35 50 90 200 800"
+steps = "5 10 10 20 50 200"
 do for [i = 1:6] {
     theta = word(incidences, i) + 0
     column_at = (i - 1) % 3

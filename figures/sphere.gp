@@ -5,7 +5,7 @@ heading = "Figure 10. A sphere of red linoleum, and its left highlight"
 curves = 0
 name(k) = ""
 line(k) = 0
-caption = "Parameters as fitted in Table 1, total reflectance 0.175."
+caption = "Parameters as in Table 1. The total reflectance is the same, so the diffuse colours differ, being total − specular: Ward–Dür’s is paler."
 set multiplot
 unset grid
 unset tics

@@ -47,6 +47,9 @@ typedef enum graze_brdf_model {
     GRAZE_BRDF_WARD_NEUMANN, /* the text after Eq. 9 */
 } graze_brdf_model;
 
+/* Models are the numbers below this. */
+#define GRAZE_BRDF_MODEL_COUNT (GRAZE_BRDF_WARD_NEUMANN + 1)
+
 /* One specular lobe of specular reflectance 1: multiply values and weights by yours. */
 typedef struct graze_brdf {
     graze_brdf_model model;

@@ -24,16 +24,18 @@ typedef struct graze_model_choice {
 
 /* How a scene is to be built; all 0: as it stands in the description. */
 typedef struct graze_scene_settings {
-    int threads;                      /* that the building itself may use, 0 for 1; the scene does not depend on it */
+    int threads;                      /* that the building itself may use, below 1 for 1; the scene does not depend on
+                                         it */
     const graze_model_choice *models; /* a material's own name wins over an alias's original, that over null; else the
                                          last */
     size_t model_count;
 } graze_scene_settings;
 
 /* Reads `count` descriptions as one, in order: each a .rad file, `!command`, or `-` for standard input; graze-scene(5)
- * says what they may hold. Null stands for settings of 0. A model chosen for a name that no material has, or one of
- * another kind, is an error. Returns GRAZE_OK and the scene in *scene, to be freed with graze_scene_destroy; or
- * GRAZE_INPUT_ERROR or GRAZE_SYSTEM_ERROR, with every mistake reported with its file, line and column, and *scene null.
+ * says what they may hold. Null stands for settings of 0. A model that there is not, or one chosen for a name that
+ * no material has, or one of another kind, is an error. Returns GRAZE_OK and the scene in *scene, to be freed with
+ * graze_scene_destroy; or GRAZE_INPUT_ERROR or GRAZE_SYSTEM_ERROR, with every mistake reported with its file, line and
+ * column, and *scene null.
  */
 GRAZE_API graze_status graze_scene_load(graze_scene **scene, const char *const *descriptions, size_t count,
                                         const graze_scene_settings *settings, const graze_report *report);

@@ -16,7 +16,8 @@ typedef struct reading {
     const graze_report *report;
 } reading;
 
-bool options_is_long(const option *o) {
+/* Long options have Graze's manners, short ones Radiance's. */
+static bool is_long(const option *o) {
     return strncmp(o->name, "--", 2) == 0;
 }
 
@@ -37,7 +38,7 @@ static bool matches(const option *o, const char *word, const char **rest) {
     bool on;
     if (o->kind == OPTION_FLAG && read_switch(*rest, &on))
         return true;
-    return options_is_long(o) ? **rest == '=' : o->kind == OPTION_CUSTOM;
+    return is_long(o) ? **rest == '=' : o->kind == OPTION_CUSTOM;
 }
 
 static const option *find_option(const option_table *table, const char *word, const char **rest) {
@@ -117,7 +118,7 @@ static graze_status read_text(const reading *r, int *used) {
 static graze_status read_flag(const reading *r) {
     bool *target = r->option->target;
     if (*r->rest == 0)
-        *target = options_is_long(r->option) || !*target;
+        *target = is_long(r->option) || !*target;
     else if (!read_switch(r->rest + (*r->rest == '='), target))
         return report_error(r->report, NULL, "option '%s': '%s' is neither 1 (on) nor 0 (off)", r->option->name,
                             r->rest + 1);
@@ -138,6 +139,8 @@ static graze_status read_option(const reading *r, int *used) {
     case OPTION_TEXT:
         return read_text(r, used);
     case OPTION_SUFFIX:
+        if (r->option->handle)
+            return r->option->handle(r->option->target, r->rest, 0, NULL, used, r->report);
         *(const char **)r->option->target = r->rest;
         return GRAZE_OK;
     case OPTION_CUSTOM:
@@ -168,7 +171,7 @@ static graze_status read_next(const option_table *table, options_arguments *a, i
     r.option = find_option(table, word, &r.rest);
     if (!r.option)
         return report_error(report, NULL, "unknown option '%s' (%s --help lists all)", word, table->program);
-    if (r.option->kind != OPTION_FLAG && options_is_long(r.option) && *r.rest == '=') {
+    if (r.option->kind != OPTION_FLAG && is_long(r.option) && *r.rest == '=') {
         a->words[*i] = r.rest + 1;
         r.rest = "";
     } else {
@@ -202,6 +205,6 @@ graze_status options_parse(const option_table *table, options_arguments *a, int 
             return status;
     }
     *operand_count = a->count - i;
-    *operands = a->words + i;
+    *operands = i > 0 ? a->words + i : a->words; /* null if there are no words at all */
     return GRAZE_OK;
 }

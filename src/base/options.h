@@ -15,7 +15,8 @@ typedef enum option_kind {
     OPTION_REAL,    /* double; `[+-]digits[.digits][e[+-]digits]`, never inf, nan or hexadecimal */
     OPTION_REAL3,   /* double[3] */
     OPTION_TEXT,    /* const char *: lives as long as the options_arguments */
-    OPTION_SUFFIX,  /* const char *: the letters behind the name in the same word, as in -fad, -ovn, -vtv */
+    OPTION_SUFFIX,  /* const char *: the letters behind the name in the same word, as in -fad, -ovn, -vtv; `handle`
+                     * takes them in its place, if there is one */
     OPTION_CUSTOM,  /* `handle` takes what words it needs; a short name also matches longer words, as -v does -vtv */
 } option_kind;
 
@@ -27,10 +28,10 @@ typedef struct option {
     const char *help;      /* one line; null: left out of --help */
     double low, high;      /* for INTEGER and REAL(3): the closed range allowed, HUGE_VAL for no limit; both 0: any */
     /* OPTION_CUSTOM: gets the words that follow the name (`suffix` is what stands behind the name in its own word, or
-     * ""), puts into *used how many words it took. */
+     * ""), puts into *used how many words it took. OPTION_SUFFIX: gets no words. */
     graze_status (*handle)(void *target, const char *suffix, int count, const char *const *words, int *used,
                            const graze_report *report);
-    /* OPTION_CUSTOM: prints the option with its present value, re-readable, for -defaults. Null: not printed. */
+    /* Goes with `handle`: prints the option with its present value, re-readable, for -defaults. Null: not printed. */
     void (*print)(void *target, FILE *out);
 } option;
 

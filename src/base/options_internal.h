@@ -11,8 +11,6 @@ struct options_arguments {
     int count, capacity;
 };
 
-/* Long options have Graze's manners, short ones Radiance's. */
-bool options_is_long(const option *);
 /* To standard output; a write that fails is an error. */
 graze_status options_print_defaults(const option_table *, const graze_report *);
 graze_status options_print_help(const option_table *, const graze_report *);

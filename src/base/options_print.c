@@ -27,6 +27,11 @@ static const char *text_of(const option *o) {
 
 /* The option with its value as it would be given; nothing where it has no value. */
 static void print_option(FILE *out, const option *o) {
+    if (o->handle) {
+        if (o->print)
+            o->print(o->target, out);
+        return;
+    }
     switch (o->kind) {
     case OPTION_FLAG:
         fprintf(out, "%s%c", o->name, *(const bool *)o->target ? '+' : '-');
@@ -53,9 +58,6 @@ static void print_option(FILE *out, const option *o) {
         }
         break;
     case OPTION_CUSTOM:
-        if (o->print)
-            o->print(o->target, out);
-        break;
     case OPTION_HEADING:
         break;
     }
@@ -107,7 +109,7 @@ graze_status options_print_defaults(const option_table *table, const graze_repor
 static const char *value_text(const option *o, const char *text) {
     if (o->kind == OPTION_FLAG)
         return *(const bool *)o->target ? "on" : "off";
-    if (o->kind == OPTION_CUSTOM)
+    if (o->handle)
         return text;
     text += strlen(text) > strlen(o->name) ? strlen(o->name) : strlen(text);
     return text + (*text == ' ');

@@ -3,11 +3,11 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
+#include "base/record_chunk.h"
 #include "base/record_file.h"
 #include "base/record_scan.h"
 #include "base/record_words.h"
@@ -15,33 +15,11 @@
 
 /* --- Errors ------------------------------------------------------------------------------------------------------ */
 
-void record_note(record_error *e, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    e->status = GRAZE_INPUT_ERROR;
-    e->error_number = e->line = e->column = 0;
-    vsnprintf(e->text, sizeof e->text, format, arguments);
-    va_end(arguments);
-}
-
-void record_note_place(record_error *e, int line, size_t column) {
-    e->line = line;
-    e->column = column < INT_MAX ? (int)column + 1 : 0;
-}
-
-void record_set_error(record_chunk *c, size_t count, const char *text) {
-    unsigned long long number = c->first + count + 1;
-    c->count = count;
-    record_note(&c->error, "record %llu: %s", number, text);
-}
-
-void record_advance(int *line, size_t *column, const char *from, const char *to) {
+void record_advance(int *line, size_t *column, const char *from, const char *to, size_t lines) {
     const char *begin = to;
     while (begin > from && begin[-1] != '\n')
         begin--;
-    *column = (size_t)(to - begin) + (begin == from ? *column : 0);
-    size_t words = 0, lines = 0;
-    record_count_ends(from, (size_t)(begin - from), &words, &lines);
+    *column = (size_t)(to - begin) + (lines ? 0 : *column);
     *line = lines < (size_t)(INT_MAX - *line) ? *line + (int)lines : INT_MAX;
 }
 
@@ -64,8 +42,9 @@ void record_set_word_error(record_chunk *c, size_t count, const char *word, cons
     snprintf(text, sizeof text, "'%s' is %s", shown, too_large ? "too large a number" : "not a number");
     record_set_error(c, count, text);
     int line = c->line;
-    size_t column = c->column;
-    record_advance(&line, &column, c->bytes, word);
+    size_t column = c->column, words = 0, lines = 0;
+    record_count_ends(c->bytes, (size_t)(word - c->bytes), &words, &lines);
+    record_advance(&line, &column, c->bytes, word, lines);
     record_note_place(&c->error, line, column);
 }
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/record_convert.h"
+#include "base/record_chunk.h"
 
 /* For less than this it is better to read ahead, once for several chunks. */
 enum { BYTES_AT_LEAST = 4096 };

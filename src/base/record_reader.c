@@ -1,21 +1,21 @@
 /* Input records from ASCII and binary streams: reading, and where whole records end. */
 #include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
 #include <poll.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/pipe.h"
+#include "base/record_chunk.h"
 #include "base/record_convert.h"
 #include "base/record_file.h"
 #include "base/record_scan.h"
 #include "base/text.h"
 
-/* Bytes are read in front of the memory that chunks are made of: at ROOM or more, and a blank stands before the first
- * record. What goes through it all should lie in a processor's nearer caches. */
-enum { FRONT = 64, ROOM = 1 << 17, READ_AT_LEAST = 1 << 16, BYTES_A_FIELD = 64 };
+/* There is room for ROOM bytes that have not been given yet, or for a whole record if that is more: little enough for
+ * all that they go through to lie in a processor's nearer caches. */
+enum { ROOM = 1 << 17, READ_AT_LEAST = 1 << 16, BYTES_A_FIELD = 64 };
 
 /* A record is known to be whole when the blank behind its last word is there. At the proper end of the input one is put
  * there. */
@@ -29,8 +29,8 @@ struct record_reader {
     const graze_report *report;
     int cancel[2]; /* a pipe; a byte in it ends a wait */
 
-    char *memory;
-    size_t room;       /* of memory: FRONT + room + 1 */
+    char *memory; /* as a chunk's: what is read goes behind the first RECORD_FRONT bytes */
+    size_t room;
     size_t begin, end; /* of what is unread in memory */
     size_t scanned;    /* ASCII: from `begin` on, with so many ends of words and lines */
     size_t words, lines;
@@ -42,40 +42,6 @@ struct record_reader {
     int line;        /* of `begin`, for ASCII */
     size_t column;   /* bytes of this line before `begin` */
 };
-
-void record_chunk_free(record_chunk *c) {
-    free(c->memory);
-    *c = (record_chunk){0};
-}
-
-static char *allocate(size_t room) {
-    char *memory = malloc(FRONT + room + 1);
-    if (memory)
-        memory[FRONT - 1] = ' ';
-    return memory;
-}
-
-static void set_out_of_memory(record_error *e) {
-    record_note(e, "out of memory");
-    e->status = GRAZE_SYSTEM_ERROR;
-    e->error_number = ENOMEM;
-}
-
-char *record_chunk_reserve(record_chunk *c, size_t room) {
-    if (c->capacity < room) {
-        free(c->memory);
-        c->memory = allocate(room);
-        c->capacity = c->memory ? room : 0;
-    }
-    if (c->memory)
-        return c->memory + FRONT;
-    set_out_of_memory(&c->error);
-    return NULL;
-}
-
-size_t record_number_size(record_format format) {
-    return format == RECORD_FLOAT ? sizeof(float) : format == RECORD_DOUBLE ? sizeof(double) : 0;
-}
 
 graze_status record_reader_open(record_reader **reader, int descriptor, const char *name, record_format format,
                                 int fields, const graze_report *report) {
@@ -90,19 +56,19 @@ graze_status record_reader_open(record_reader **reader, int descriptor, const ch
                          .report = report,
                          .cancel = {-1, -1},
                          .room = ROOM,
-                         .begin = FRONT,
-                         .end = FRONT,
-                         .scanned = FRONT,
+                         .begin = RECORD_FRONT,
+                         .end = RECORD_FRONT,
+                         .scanned = RECORD_FRONT,
                          .line = 1};
     size_t needed = r->record_size ? r->record_size : r->fields * BYTES_A_FIELD;
     if (r->room < needed)
         r->room = needed;
     r->name = strdup(name);
-    r->memory = allocate(r->room);
+    r->memory = record_memory(r->room);
     graze_status status = GRAZE_OK;
     if (!r->name || !r->memory)
         status = report_out_of_memory(report);
-    else if (fcntl(descriptor, F_GETFD) < 0 || pipe(r->cancel) != 0) /* a closed one's number is not the pipe's */
+    else if (pipe_open(r->cancel) != 0)
         status = report_system_error(report, &(place){.file = name}, "cannot read");
     if (status == GRAZE_OK && r->record_size)
         record_file_find(&r->file, descriptor, r->record_size);
@@ -145,9 +111,9 @@ static bool is_readable(record_reader *r, bool wait) {
 
 /* Moves what is unread to the front, and gives how much can be read behind it. */
 static size_t make_room(record_reader *r) {
-    size_t unread = r->end - r->begin, moved = r->begin - FRONT;
+    size_t unread = r->end - r->begin, moved = r->begin - RECORD_FRONT;
     if (moved > 0) {
-        memmove(r->memory + FRONT, r->memory + r->begin, unread);
+        memmove(r->memory + RECORD_FRONT, r->memory + r->begin, unread);
         r->begin -= moved;
         r->end -= moved;
         r->scanned -= moved;
@@ -219,9 +185,9 @@ static bool hand_over(record_reader *r, record_chunk *c, size_t cut) {
         r->memory = c->memory;
         c->memory = memory;
         c->bytes = memory + r->begin;
-        r->scanned = r->scanned - cut + FRONT;
-        r->begin = FRONT;
-        r->end = FRONT + left;
+        r->scanned = r->scanned - cut + RECORD_FRONT;
+        r->begin = RECORD_FRONT;
+        r->end = RECORD_FRONT + left;
     } else {
         memcpy(room, r->memory + r->begin, taken);
         c->bytes = room;
@@ -233,15 +199,10 @@ static bool hand_over(record_reader *r, record_chunk *c, size_t cut) {
 
 /* Moves the place, and what has been counted, on to `cut`. */
 static void advance_to(record_reader *r, size_t cut) {
-    const char *begin = r->memory + r->begin, *p = r->memory + cut;
     size_t lines = r->lines;
     r->words = r->lines = 0;
-    record_count_ends(p, r->scanned - cut, &r->words, &r->lines);
-    lines -= r->lines;
-    r->line = lines < (size_t)(INT_MAX - r->line) ? r->line + (int)lines : INT_MAX;
-    while (p > begin && p[-1] != '\n')
-        p--;
-    r->column = cut - (size_t)(p - r->memory) + (lines ? 0 : r->column);
+    record_count_ends(r->memory + cut, r->scanned - cut, &r->words, &r->lines);
+    record_advance(&r->line, &r->column, r->memory + r->begin, r->memory + cut, lines - r->lines);
 }
 
 static void give(record_reader *r, record_chunk *c, size_t count) {
@@ -258,7 +219,7 @@ static void give(record_reader *r, record_chunk *c, size_t count) {
 
 /* --- What is wrong where there is no whole record ---------------------------------------------------------------- */
 
-/* The first of an incomplete record's words that is no number, or else what `text` says of the record. */
+/* Notes the first of an incomplete record's words that is no number, if there is one. */
 static void set_words_error(record_reader *r, record_chunk *c) {
     const char *at = r->memory + r->begin, *limit = r->memory + r->end;
     double value;
@@ -269,17 +230,6 @@ static void set_words_error(record_reader *r, record_chunk *c) {
             break;
         }
     c->bytes = NULL;
-}
-
-void record_note_end(record_error *e, uint64_t record, int error, size_t bytes, size_t record_size) {
-    unsigned long long number = record;
-    if (!error) {
-        record_note(e, "record %llu is cut short: %zu of %zu bytes", number, bytes, record_size);
-        return;
-    }
-    record_note(e, "record %llu: cannot read", number);
-    e->status = GRAZE_SYSTEM_ERROR;
-    e->error_number = error;
 }
 
 static void set_cut_short(record_reader *r, record_chunk *c) {

@@ -107,7 +107,7 @@ AVX2_INLINE void set_row(word_rows *rows, size_t i, const char *word, const char
     uint64_t negative = *word == '-';
     const char *whole = word + negative;
     size_t length = (size_t)(end - whole) - 2;
-    if (whole[1] == '.' && length - 1 < FRACTION_MAX && (end[-4] | 0x20) != 'e') {
+    if (length - 1 < FRACTION_MAX && whole[1] == '.' && (end[-4] | 0x20) != 'e') {
         bytes16 digits, mask;
         memcpy(&digits, end - sizeof digits, sizeof digits);
         memcpy(&mask, masks + length, sizeof mask);
@@ -205,7 +205,7 @@ AVX2 static size_t scan_block(const char *text, const char *limit, const size_t 
 }
 
 bool record_words_available(void) {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("popcnt");
 }
 
 size_t record_words_scan(const char **at, const char *limit, double *values, size_t count) {

@@ -56,8 +56,8 @@ graze_status whole_file_read(whole_file *text, int descriptor, const char *name,
     return status;
 }
 
-graze_status whole_file_open(whole_file *text, const char *path, const char *name, const place *where,
-                             const graze_report *report) {
+graze_status whole_file_read_path(whole_file *text, const char *path, const char *name, const place *where,
+                                  const graze_report *report) {
     *text = (whole_file){0};
     int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)

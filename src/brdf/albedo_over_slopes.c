@@ -46,8 +46,10 @@ static double weigh(const void *context, double b) {
 /* The trapezoid rule, where the weight is smooth on all of the line. */
 static double sum_of_line(const slope_line *line, double step) {
     double sum = weight_at(line, 0);
-    for (double b = step; b <= brdf_farthest_slope; b += step)
+    for (int i = 1; step * i <= brdf_farthest_slope; ++i) {
+        double b = step * i;
         sum += exp(-b * b) * (weight_at(line, b) + weight_at(line, -b));
+    }
     return step * sum;
 }
 

@@ -1,15 +1,6 @@
 /* The choice of the table that suits the processor. */
 #include "brdf/kernels.h"
 
-/* Each needs all that those before it need. */
-static const brdf_kernels *const tables[] = {
-    &brdf_kernels_baseline,
-#ifdef BRDF_X86_64
-    &brdf_kernels_avx2,
-    &brdf_kernels_avx512,
-#endif
-};
-
 /* Only reads what the C runtime found out before main(). */
 static brdf_processor this_processor(void) {
 #ifdef BRDF_X86_64
@@ -40,13 +31,4 @@ const brdf_kernels *brdf_kernels_for(brdf_processor processor) {
 
 const brdf_kernels *brdf_kernels_best(void) {
     return brdf_kernels_for(this_processor());
-}
-
-int brdf_kernels_available(const brdf_kernels *available[BRDF_KERNELS_MOST]) {
-    const brdf_kernels *best = brdf_kernels_best();
-    int count = 0;
-    do
-        available[count] = tables[count];
-    while (tables[count++] != best);
-    return count;
 }

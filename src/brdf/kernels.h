@@ -11,7 +11,8 @@
  * - out_of_range.c, out_of_range_mean_weight.c: the pairs that the kernels leave alone, one at a time; powers of two
  *   are taken out, and the same arithmetic serves.
  *
- * Integrals (albedo*.c, mean_albedo.c) and the diffuse term (diffuse.c) are plain C and libm. */
+ * Integrals (albedo*.c, mean_albedo.c, over the slopes of slope_plane.c, by the rule of quadrature.c) and the diffuse
+ * term (diffuse.c) are plain C and libm. */
 #ifndef BRDF_KERNELS_H
 #define BRDF_KERNELS_H
 
@@ -77,9 +78,5 @@ const brdf_kernels *brdf_kernels_for(brdf_processor);
 
 /* The best one for this processor. */
 const brdf_kernels *brdf_kernels_best(void);
-
-/* All that this processor can run, the best one last; returns their number. */
-enum { BRDF_KERNELS_MOST = 3 };
-int brdf_kernels_available(const brdf_kernels *[BRDF_KERNELS_MOST]);
 
 #endif

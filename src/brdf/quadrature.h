@@ -7,7 +7,8 @@ typedef double brdf_integrand(const void *context, double x);
 
 enum { BRDF_MOST_POINTS = 13 };
 
-/* Where an integrand is not smooth, in ascending order. */
+/* Where an integrand is not smooth, in ascending order. What lies outside of an integral's range has no effect on it.
+ */
 typedef struct brdf_points {
     int count;
     double at[BRDF_MOST_POINTS];
@@ -15,6 +16,8 @@ typedef struct brdf_points {
 
 static const brdf_points brdf_no_points = {.count = 0};
 
+/* Adds one, in its place. Nothing is checked: whoever adds them knows that there are no more than BRDF_MOST_POINTS,
+ * which is what brdf_slope_mean adds where there is a kink. */
 void brdf_points_add(brdf_points *, double x);
 
 /* How an integrand is at those points, and at the ends: like any function that is smooth up to there, or like one of a

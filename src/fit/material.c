@@ -5,6 +5,10 @@
 
 #include "base/vector.h"
 
+/* How much nearer metal2 must come, in parts of the specular colour: without colour both are as near, up to rounding
+ * and the noise of the data. */
+#define METAL_MARGIN .01
+
 static double specular_of(const void *result, size_t channel) {
     return ((const fit_result *)result)->channels[channel].rs.value;
 }
@@ -37,7 +41,8 @@ fit_material fit_material_of(const fit_result *r, const fit_channel_name *channe
     rgb both = rgb_add(m.rs, m.rd);
     double grey = fmin(rgb_brightness(m.rs), 1), brightness = rgb_brightness(both);
     double share = brightness > 0 ? fmin(rgb_brightness(m.rs) / brightness, 1) : 0;
-    m.metal = distance(m.rs, rgb_scale(share, both)) < .999 * distance(m.rs, rgb_gray(grey));
+    double margin = METAL_MARGIN * distance(m.rs, rgb_gray(0));
+    m.metal = distance(m.rs, rgb_scale(share, both)) + margin < distance(m.rs, rgb_gray(grey));
     m.spec = m.metal ? share : grey;
     m.colour = m.metal ? both : grey < 1 ? rgb_scale(1 / (1 - grey), m.rd) : rgb_gray(0);
     m.rs_as = m.metal ? rgb_scale(m.spec, m.colour) : rgb_gray(m.spec);

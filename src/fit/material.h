@@ -15,8 +15,8 @@ typedef struct fit_material {
     graze_rgb rs_as, rd_as; /* ... what the material has */
 } fit_material;
 
-/* Of the two, the one whose specular colour is nearer to the fitted one; plastic2 where both are as near, as without
- * colour. A roughness of each channel's own becomes the mean weighted by rs. */
+/* plastic2, unless metal2's specular colour is nearer to the fitted one by more than 1% of that: what is grey is
+ * plastic2. A roughness of each channel's own becomes the mean weighted by rs. */
 fit_material fit_material_of(const fit_result *, const fit_channel_name *channels);
 
 #endif

@@ -56,8 +56,9 @@ typedef struct fit_source {
 } fit_source;
 
 #define FIT_COSINE_MIN 1e-6
-/* The largest value and weight; the smallest weight is its inverse. Squares of such residuals can be added up. */
-#define FIT_NUMBER_MAX 1e100
+/* The largest value and weight; the smallest weight is its inverse. Products of two weights and two values, as normal
+ * equations have them, can be added up. */
+#define FIT_NUMBER_MAX 1e50
 
 typedef struct fit_pair {
     graze_vec3 l, v;

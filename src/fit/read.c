@@ -10,7 +10,7 @@
 
 static graze_status read_whole(whole_file *f, const char *file, const place *where, const graze_report *report) {
     return strcmp(file, "-") == 0 ? whole_file_read(f, STDIN_FILENO, "it", where, report)
-                                  : whole_file_open(f, file, "it", where, report);
+                                  : whole_file_read_path(f, file, "it", where, report);
 }
 
 /* A comment's first word behind its #. */
@@ -56,15 +56,12 @@ static fit_format recognise(fit_reader *r) {
     return FIT_FORMAT_TABLE;
 }
 
-/* Angles in the wrong unit are all small, or too large. */
+/* Radians read as degrees are all small; degrees read as radians are too large to be read at all. */
 static void question_unit(const fit_reader *r) {
     const place where = {.file = r->where.file};
     if (r->source->conventions.unit == FIT_DEGREES && r->largest_polar > 0 && r->largest_polar <= PI / 2 + 1e-3)
         report_warning(r->report, &where,
                        "no polar angle is above %.3g degrees: if they are radians, say --angles radians",
-                       r->largest_polar);
-    if (r->source->conventions.unit == FIT_RADIANS && r->largest_polar > PI + 1e-3)
-        report_warning(r->report, &where, "polar angles reach %.3g radians: if they are degrees, say --angles degrees",
                        r->largest_polar);
 }
 
@@ -128,6 +125,8 @@ graze_status fit_read_bytes(fit_measurements *m, const char *name, const char *b
     if (status != GRAZE_OK)
         return status;
     question_unit(&r);
+    if (source->pairs + source->below + source->absent == 0)
+        return report_error(report, &where, "there are no lines of data");
     if (source->pairs == 0)
         return report_error(report, &where, "there is no measurement of two directions above the surface");
     return GRAZE_OK;

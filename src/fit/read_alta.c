@@ -16,6 +16,7 @@ struct alta {
     fit_reader *reader;
     size_t inputs, outputs;
     void (*convert)(alta *, const double *inputs, vec3 *light, vec3 *view); /* null: #PARAM_IN not seen */
+    const char *kinds; /* of inputs: t polar angle, p azimuth, x component */
     fit_quantity quantity;
     bool colour; /* #PARAM_OUT names a colour, or nothing we know */
     char names[3];
@@ -40,26 +41,26 @@ static void from_cartesian(alta *a, const double *x, vec3 *light, vec3 *view) {
 }
 
 static void from_half(alta *a, const double *x, vec3 *light, vec3 *view) {
-    (void)a;
-    fit_from_half_difference(x, x + 2, view, light);
+    double half[2], difference[2];
+    for (int i = 0; i < 2; i++) {
+        half[i] = fit_reader_radians(a->reader, x[i]);
+        difference[i] = fit_reader_radians(a->reader, x[2 + i]);
+    }
+    fit_from_half_difference(half, difference, view, light);
 }
 
 static void from_isotropic_half(alta *a, const double *x, vec3 *light, vec3 *view) {
-    (void)a;
-    fit_from_half_difference((const double[]){x[0], 0}, x + 1, view, light);
+    from_half(a, (const double[]){x[0], 0, x[1], x[2]}, light, view);
 }
 
 static const struct {
     const char *name;
-    size_t inputs;
-    bool components;
+    const char *kinds;
     void (*convert)(alta *, const double *, vec3 *, vec3 *);
 } inputs_known[] = {
-    {"SPHERICAL_TL_PL_TV_PV", 4, false, from_spherical},
-    {"ISOTROPIC_TV_TL_DPHI", 3, false, from_isotropic},
-    {"CARTESIAN", 6, true, from_cartesian},
-    {"RUSIN_TH_PH_TD_PD", 4, false, from_half},
-    {"RUSIN_TH_TD_PD", 3, false, from_isotropic_half},
+    {"SPHERICAL_TL_PL_TV_PV", "tptp", from_spherical}, {"ISOTROPIC_TV_TL_DPHI", "ttp", from_isotropic},
+    {"CARTESIAN", "xxxxxx", from_cartesian},           {"RUSIN_TH_PH_TD_PD", "tptp", from_half},
+    {"RUSIN_TH_TD_PD", "ttp", from_isotropic_half},
 };
 
 static graze_status read_input_name(alta *a, const fit_word *name) {
@@ -68,10 +69,11 @@ static graze_status read_input_name(alta *a, const fit_word *name) {
         if (!fit_word_is(name, inputs_known[i].name))
             continue;
         a->convert = inputs_known[i].convert;
-        if (a->inputs != inputs_known[i].inputs)
+        a->kinds = inputs_known[i].kinds;
+        if (a->inputs != strlen(a->kinds))
             return report_error(r->report, &r->where, "%s has %zu inputs, but #DIM says %zu", inputs_known[i].name,
-                                inputs_known[i].inputs, a->inputs);
-        fit_reader_set_unit(r, inputs_known[i].components ? FIT_COMPONENTS : FIT_RADIANS, FIT_OF_FORMAT);
+                                strlen(a->kinds), a->inputs);
+        fit_reader_set_unit(r, a->kinds[0] == 'x' ? FIT_COMPONENTS : FIT_RADIANS, FIT_OF_FORMAT);
         return GRAZE_OK;
     }
     return fit_reader_error(
@@ -162,19 +164,17 @@ static graze_status begin_points(alta *a) {
 
 static graze_status read_point(alta *a) {
     fit_reader *r = a->reader;
-    double x[INPUTS_MAX], value;
+    double x[INPUTS_MAX];
     for (size_t i = 0; i < a->inputs; i++) {
-        graze_status status = fit_reader_number(r, "input", &x[i]);
+        graze_status status = a->kinds[i] == 'x'
+                                  ? fit_reader_number(r, "input", &x[i])
+                                  : fit_reader_angle(r, "input", a->kinds[i] == 't' ? FIT_POLAR : FIT_AZIMUTH, &x[i]);
         if (status != GRAZE_OK)
             return status;
     }
-    for (size_t i = 0, k = 0; i < a->outputs; i++) {
-        graze_status status = fit_reader_number(r, "value", &value);
-        if (status != GRAZE_OK)
-            return status;
-        if (a->chosen[i])
-            a->values[k++] = value;
-    }
+    graze_status status = fit_reader_values(r, a->chosen, a->outputs, a->values);
+    if (status != GRAZE_OK)
+        return status;
     vec3 light, view;
     a->convert(a, x, &light, &view);
     return fit_reader_add(r, light, view, 1, a->values);

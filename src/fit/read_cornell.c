@@ -66,20 +66,15 @@ static graze_status read_pair(cornell *c) {
     static const char *const names[] = {"incident polar angle", "incident azimuth", "scattered polar angle",
                                         "scattered azimuth"};
     fit_reader *r = c->reader;
-    double angles[4], value;
+    double angles[4];
     for (int i = 0; i < 4; i++) {
-        graze_status status = fit_reader_number(r, names[i], &angles[i]);
+        graze_status status = fit_reader_angle(r, names[i], i % 2 ? FIT_AZIMUTH : FIT_POLAR, &angles[i]);
         if (status != GRAZE_OK)
             return status;
     }
-    for (size_t i = 0, k = 0; i < c->count; i++) {
-        graze_status status = fit_reader_number(r, "value", &value);
-        if (status != GRAZE_OK)
-            return status;
-        if (c->chosen[i])
-            c->values[k++] = value;
-    }
-    graze_status status = fit_reader_line_end(r);
+    graze_status status = fit_reader_values(r, c->chosen, c->count, c->values);
+    if (status == GRAZE_OK)
+        status = fit_reader_line_end(r);
     return status == GRAZE_OK ? fit_reader_add(r, fit_reader_direction(r, angles[0], angles[1]),
                                                fit_reader_direction(r, angles[2], angles[3]), 1, c->values)
                               : status;

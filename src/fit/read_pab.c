@@ -43,12 +43,12 @@ static graze_status read_comment(pab *p) {
     if (!fit_reader_word(r, &key))
         return GRAZE_OK;
     if (fit_word_is(&key, "intheta"))
-        return fit_reader_number(r, "incident polar angle", &p->theta);
+        return fit_reader_angle(r, "incident polar angle", FIT_POLAR, &p->theta);
     if (fit_word_is(&key, "inphi"))
-        return fit_reader_number(r, "incident azimuth", &p->phi);
+        return fit_reader_angle(r, "incident azimuth", FIT_AZIMUTH, &p->phi);
     if (fit_word_is(&key, "incident_angle")) {
-        graze_status status = fit_reader_number(r, "incident polar angle", &p->theta);
-        return status == GRAZE_OK ? fit_reader_number(r, "incident azimuth", &p->phi) : status;
+        graze_status status = fit_reader_angle(r, "incident polar angle", FIT_POLAR, &p->theta);
+        return status == GRAZE_OK ? fit_reader_angle(r, "incident azimuth", FIT_AZIMUTH, &p->phi) : status;
     }
     if (fit_word_is(&key, "format:"))
         return read_format_line(p);
@@ -63,7 +63,6 @@ static graze_status begin_data(pab *p) {
     fit_word words[VALUES_MAX];
     if (isnan(p->theta) || isnan(p->phi))
         return report_error(r->report, &r->where, "data before the incident direction: #intheta and #inphi");
-    fit_reader_set_unit(r, FIT_DEGREES, FIT_OF_FORMAT);
     fit_reader_set_quantity(r, p->quantity ? p->quantity : FIT_BRDF, p->quantity ? FIT_OF_FILE : FIT_ASSUMED);
     fit_reader_set_light(r, FIT_LIGHT_INCIDENT, FIT_OF_FORMAT);
     fit_reader_set_mirror(r, FIT_MIRROR_OPPOSITE, FIT_ASSUMED);
@@ -78,9 +77,9 @@ static graze_status begin_data(pab *p) {
 static graze_status read_line(pab *p) {
     fit_reader *r = p->reader;
     double theta = 0, phi = 0, value, values[VALUES_MAX] = {0};
-    graze_status status = fit_reader_number(r, "polar angle", &theta);
+    graze_status status = fit_reader_angle(r, "polar angle", FIT_POLAR, &theta);
     if (status == GRAZE_OK)
-        status = fit_reader_number(r, "azimuth", &phi);
+        status = fit_reader_angle(r, "azimuth", FIT_AZIMUTH, &phi);
     for (size_t i = 0, k = 0; i < p->count && status == GRAZE_OK; i++) {
         status = fit_reader_number(r, "value", &value);
         if (p->chosen[i])
@@ -96,6 +95,7 @@ static graze_status read_line(pab *p) {
 graze_status fit_read_pab(fit_reader *r) {
     pab p = {.reader = r, .theta = NAN, .phi = NAN, .count = 1};
     graze_status status = GRAZE_OK;
+    fit_reader_set_unit(r, FIT_DEGREES, FIT_OF_FORMAT);
     while (status == GRAZE_OK && fit_reader_line(r)) {
         if (fit_reader_count_words(r) == 0)
             continue;

@@ -185,6 +185,14 @@ static graze_status weight_of(const table *t, const double *fields, double *weig
     return report_error(t->reader->report, &t->reader->where, "weights and deviations must be positive");
 }
 
+static graze_status read_field(fit_reader *r, fit_column column, const char *name, double *value) {
+    bool polar = column == FIT_THETA_IN || column == FIT_THETA_OUT;
+    bool azimuth = column == FIT_PHI_IN || column == FIT_PHI_OUT || column == FIT_PHI_DIFFERENCE;
+    if (r->source->conventions.unit != FIT_COMPONENTS && (polar || azimuth))
+        return fit_reader_angle(r, name, polar ? FIT_POLAR : FIT_AZIMUTH, value);
+    return fit_reader_number(r, name, value);
+}
+
 static graze_status read_row(table *t) {
     fit_reader *r = t->reader;
     double fields[FIT_VALUE] = {0};
@@ -203,7 +211,7 @@ static graze_status read_row(table *t) {
         size_t length = t->names[i].length < sizeof name - 1 ? t->names[i].length : sizeof name - 1;
         memcpy(name, t->names[i].text, length);
         name[length] = 0;
-        graze_status status = fit_reader_number(r, name, target);
+        graze_status status = read_field(r, t->columns[i], name, target);
         if (status != GRAZE_OK)
             return status;
     }

@@ -114,6 +114,34 @@ graze_status fit_reader_number(fit_reader *r, const char *what, double *value) {
                         (int)(word.length < 60 ? word.length : 60), word.text);
 }
 
+graze_status fit_reader_angle(fit_reader *r, const char *what, fit_angle kind, double *value) {
+    static const char *const degrees[] = {"expected a polar angle of at most 180 degrees in size",
+                                          "expected an azimuth of at most 360 degrees in size"};
+    static const char *const radians[] = {
+        "expected a polar angle of at most pi radians in size (for degrees, say --angles degrees)",
+        "expected an azimuth of at most 2 pi radians in size (for degrees, say --angles degrees)"};
+    /* A file's angles are rounded: 3.142. */
+    const double limit = (kind == FIT_POLAR ? PI : 2 * PI) * (1 + 2e-4);
+    fit_reader before = *r;
+    fit_word word;
+    graze_status status = fit_reader_number(r, what, value);
+    if (status != GRAZE_OK || fabs(fit_reader_radians(r, *value)) <= limit)
+        return status;
+    fit_reader_word(&before, &word);
+    return fit_reader_error(r, &word, (r->source->conventions.unit == FIT_RADIANS ? radians : degrees)[kind]);
+}
+
+graze_status fit_reader_values(fit_reader *r, const bool *chosen, size_t count, double *values) {
+    graze_status status = GRAZE_OK;
+    for (size_t i = 0; i < count && status == GRAZE_OK; i++) {
+        double value;
+        status = fit_reader_number(r, "value", &value);
+        if (status == GRAZE_OK && chosen[i])
+            *values++ = value;
+    }
+    return status;
+}
+
 graze_status fit_reader_line_end(fit_reader *r) {
     fit_word word;
     if (fit_reader_word(r, &word) && word.length > 0)
@@ -145,10 +173,13 @@ void fit_reader_set_mirror(fit_reader *r, fit_mirror mirror, fit_origin origin) 
     r->source->origins.mirror = told ? FIT_TOLD : origin;
 }
 
+double fit_reader_radians(const fit_reader *r, double angle) {
+    return r->source->conventions.unit == FIT_RADIANS ? angle : angle_radians(angle);
+}
+
 graze_vec3 fit_reader_direction(fit_reader *r, double polar, double azimuth) {
-    bool radians = r->source->conventions.unit == FIT_RADIANS;
     r->largest_polar = fmax(r->largest_polar, fabs(polar));
-    double t = radians ? polar : angle_radians(polar), p = radians ? azimuth : angle_radians(azimuth);
+    double t = fit_reader_radians(r, polar), p = fit_reader_radians(r, azimuth);
     return vec3_make(sin(t) * cos(p), sin(t) * sin(p), cos(t));
 }
 
@@ -271,12 +302,14 @@ graze_status fit_reader_add(fit_reader *r, graze_vec3 incident, graze_vec3 outgo
     if (status != GRAZE_OK)
         return status;
     if (!(weight >= 1 / FIT_NUMBER_MAX && weight <= FIT_NUMBER_MAX))
-        return report_error(r->report, &r->where, "a weight of %g is out of range", weight);
+        return report_error(r->report, &r->where, "a weight of %g is out of range: expected %g to %g", weight,
+                            1 / FIT_NUMBER_MAX, FIT_NUMBER_MAX);
     double cosine = cosine_in_values(source, incident, outgoing);
     for (size_t k = 0; k < m->channel_count; k++) {
         double value = values[k] / cosine;
         if (!(fabs(value) <= FIT_NUMBER_MAX))
-            return report_error(r->report, &r->where, "a value of %g is out of range", values[k]);
+            return report_error(r->report, &r->where, "a value of %g is out of range: a BRDF is at most %g in size",
+                                values[k], FIT_NUMBER_MAX);
         m->values[m->count * m->channel_count + k] = value;
     }
     if (source->conventions.mirror == FIT_MIRROR_SAME)

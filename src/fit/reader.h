@@ -11,6 +11,8 @@ typedef struct fit_word {
     int column; /* from 1 */
 } fit_word;
 
+typedef enum fit_angle { FIT_POLAR, FIT_AZIMUTH } fit_angle;
+
 typedef struct fit_reader {
     const char *bytes, *end; /* the whole file */
     const char *next;        /* the line behind the present one */
@@ -34,6 +36,10 @@ bool fit_reader_word(fit_reader *, fit_word *);
 size_t fit_reader_count_words(const fit_reader *);
 /* The next word as a finite number; `what` names it in the message. */
 graze_status fit_reader_number(fit_reader *, const char *what, double *);
+/* The next word as an angle in the source's unit, which a direction may have. */
+graze_status fit_reader_angle(fit_reader *, const char *what, fit_angle, double *);
+/* The next `count` words as finite numbers, of which `values` gets the chosen ones. */
+graze_status fit_reader_values(fit_reader *, const bool *chosen, size_t count, double *values);
 graze_status fit_reader_line_end(fit_reader *);
 graze_status fit_reader_error(const fit_reader *, const fit_word *, const char *text);
 bool fit_word_is(const fit_word *, const char *text);
@@ -45,6 +51,8 @@ void fit_reader_set_quantity(fit_reader *, fit_quantity, fit_origin);
 void fit_reader_set_light(fit_reader *, fit_light, fit_origin);
 void fit_reader_set_mirror(fit_reader *, fit_mirror, fit_origin);
 
+/* An angle in the source's unit, in radians. */
+double fit_reader_radians(const fit_reader *, double angle);
 /* The direction of two angles in the source's unit. */
 graze_vec3 fit_reader_direction(fit_reader *, double polar, double azimuth);
 

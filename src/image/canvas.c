@@ -40,8 +40,9 @@ bool image_draw_backdrop(image_canvas *canvas, int left, const image *picture, i
     if (!bytes)
         return false;
     image_expose(picture, bytes);
-    for (int y = 0; y < picture->height * zoom; y++)
-        for (int x = 0; x < picture->width * zoom; x++) {
+    int right = picture->width * zoom, bottom = picture->height * zoom;
+    for (int y = 0; y < bottom && y < canvas->height; y++)
+        for (int x = left < 0 ? -left : 0; x < right && left + x < canvas->width; x++) {
             size_t i = (size_t)(y / zoom) * (size_t)picture->width + (size_t)(x / zoom);
             unsigned char *pixel = pixel_at(canvas, left + x, y);
             for (size_t c = 0; c < 3; c++)

@@ -20,8 +20,8 @@ void image_canvas_free(image_canvas *);
 void image_fill(image_canvas *, int x, int y, int width, int height, const unsigned char color[3]);
 /* Lays the colour over a pixel, which it covers in part, from 0 to 1; nothing off the canvas. */
 void image_blend(image_canvas *, int x, int y, double cover, const unsigned char color[3]);
-/* The picture from column `left` on, exposed for the eye, each pixel enlarged to zoom x zoom; a little darker than
- * usual so that lines over it stand out. False when out of memory. */
+/* The picture from column `left` on, exposed for the eye, each pixel enlarged to zoom x zoom, cut to the canvas; a
+ * little darker than usual so that lines over it stand out. False when out of memory. */
 bool image_draw_backdrop(image_canvas *, int left, const image *, int zoom);
 
 /* Writes the canvas as image_write does, with the shape of pixels, command and software of `header`: the very bytes in

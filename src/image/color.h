@@ -32,10 +32,20 @@ image_color_matrix image_color_from_xyz(void);
 static inline double image_visible(double value) {
     return value > 0 ? fmin(value, 1e30) : 0;
 }
-/* The brightness of pixel `i` of the planes R, G, B. */
-static inline double image_brightness(float *const *channels, size_t i) {
+/* The brightness of what the eye gets of pixel `i` of the planes R, G, B. */
+static inline double image_visible_brightness(float *const *channels, size_t i) {
     return rgb_brightness(
         (rgb){image_visible(channels[0][i]), image_visible(channels[1][i]), image_visible(channels[2][i])});
+}
+/* The same of either sign. */
+static inline double image_bounded(double value) {
+    return image_visible(value) - image_visible(-value);
+}
+/* The pixel's brightness, 0 at least. Negative channels count: a colour beyond the primaries has its luminance only
+ * with them. */
+static inline double image_brightness(float *const *channels, size_t i) {
+    rgb c = {image_bounded(channels[0][i]), image_bounded(channels[1][i]), image_bounded(channels[2][i])};
+    return fmax(rgb_brightness(c), 0);
 }
 
 /* 8-bit sRGB's transfer function: linear 0 .. 1 to encoded 0 .. 1, and back. */

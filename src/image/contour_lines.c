@@ -1,7 +1,8 @@
-/* Smoothing a field, and where lines of its whole numbers pass. */
+/* Making a field, and where lines of its whole numbers pass. */
 #include "image/contour_lines.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static const double line_width = 1.6; /* in pixels */
 
@@ -22,20 +23,39 @@ static int smoothing_passes(const image_field *f) {
     return passes < 16 ? passes : 16;
 }
 
-void image_field_smooth(image_field *f) {
+static void smooth(image_field *f) {
     size_t width = (size_t)f->width, height = (size_t)f->height;
     for (int pass = 0; pass < smoothing_passes(f); pass++) {
         for (size_t y = 0; y < height; y++)
-            smooth_line(f->values + y * width, f->width, 1);
+            smooth_line(f->places + y * width, f->width, 1);
         for (size_t x = 0; x < width; x++)
-            smooth_line(f->values + x, f->height, width);
+            smooth_line(f->places + x, f->height, width);
     }
 }
 
-static double value_at(const image_field *f, int x, int y) {
+bool image_field_of(image_field *f, const image_values *values, const image_value_scale *scale) {
+    size_t count = (size_t)values->width * (size_t)values->height;
+    *f = (image_field){values->width, values->height, malloc(count * sizeof(float))};
+    if (!f->places)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        /* What is far off the scale must not blur the lines at its ends, nor what is missing make lines of its own. */
+        double at = isnan(values->values[i]) ? 0.5 : image_scale_position(scale, values->values[i]);
+        f->places[i] = (float)fmin(fmax(at * scale->divisions, -1), scale->divisions + 1);
+    }
+    smooth(f);
+    return true;
+}
+
+void image_field_free(image_field *f) {
+    free(f->places);
+    f->places = NULL;
+}
+
+static double place_at(const image_field *f, int x, int y) {
     x = x < 0 ? 0 : x >= f->width ? f->width - 1 : x;
     y = y < 0 ? 0 : y >= f->height ? f->height - 1 : y;
-    return f->values[(size_t)y * (size_t)f->width + (size_t)x];
+    return f->places[(size_t)y * (size_t)f->width + (size_t)x];
 }
 
 /* Weights of the uniform cubic B-spline, whose contours have no kinks, between the second and third of four points. */
@@ -51,19 +71,19 @@ static void spline_weights(double t, double weights[4]) {
 static double interpolate(const image_field *f, double x, double y, int zoom) {
     int left = (int)floor(x - 0.5), top = (int)floor(y - 0.5);
     if (zoom == 1)
-        return value_at(f, left, top);
+        return place_at(f, left, top);
     double across[4], down[4], sum = 0;
     spline_weights(x - 0.5 - left, across);
     spline_weights(y - 0.5 - top, down);
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++)
-            sum += down[j] * across[i] * value_at(f, left - 1 + i, top - 1 + j);
+            sum += down[j] * across[i] * place_at(f, left - 1 + i, top - 1 + j);
     return sum;
 }
 
 /* The level whose line passes nearest to the middle one of 3 x 3 values, by the field's slope there, and how much of
  * the pixel it covers, from 0 to 1. Lines pass only where the values lie on both sides of the level. */
-static double nearest_line(const image_contour_levels *l, double values[3][3], int *level) {
+static double nearest_line(double values[3][3], int *level) {
     double low = values[1][1], high = low;
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++) {
@@ -72,7 +92,7 @@ static double nearest_line(const image_contour_levels *l, double values[3][3], i
         }
     *level = (int)lround(values[1][1]);
     double at = *level;
-    if (!(low < at && at <= high) || *level < l->first || *level >= l->first + l->count)
+    if (!(low < at && at <= high))
         return 0;
     double slope = hypot((values[1][2] - values[1][0]) / 2, (values[2][1] - values[0][1]) / 2);
     /* At a crest or a saddle the slope vanishes; the spread of the values takes its place. */
@@ -81,8 +101,7 @@ static double nearest_line(const image_contour_levels *l, double values[3][3], i
     return fmin(fmax((line_width + 1) / 2 - distance, 0), 1);
 }
 
-void image_draw_contour_lines(image_canvas *canvas, int left, const image_field *f, int zoom,
-                              const image_contour_levels *l) {
+void image_draw_contour_lines(image_canvas *canvas, int left, const image_field *f, int zoom, const image_levels *l) {
     for (int y = 0; y < f->height * zoom; y++)
         for (int x = 0; x < f->width * zoom; x++) {
             double values[3][3];
@@ -90,11 +109,11 @@ void image_draw_contour_lines(image_canvas *canvas, int left, const image_field 
                 for (int i = 0; i < 3; i++)
                     values[j][i] = interpolate(f, (x + i - 0.5) / zoom, (y + j - 0.5) / zoom, zoom);
             int level;
-            double cover = nearest_line(l, values, &level);
+            double cover = nearest_line(values, &level);
             if (cover <= 0)
                 continue;
             unsigned char color[3];
-            if (l->color(l->user, level, color))
+            if (image_level_color(l, level, color))
                 image_blend(canvas, left + x, y, cover, color);
         }
 }

@@ -3,23 +3,20 @@
 #define IMAGE_CONTOUR_LINES_H
 
 #include "image/canvas.h"
+#include "image/levels.h"
+#include "image/values.h"
 
-/* Values at a picture's pixels, in such units that lines run where they are whole numbers. */
+/* Where a picture's values lie on a scale, in its divisions: lines run where that is a whole number. */
 typedef struct image_field {
     int width, height;
-    float *values; /* finite */
+    float *places; /* finite */
 } image_field;
 
-/* Which lines are drawn, and their colours; false for one that is left out after all. */
-typedef struct image_contour_levels {
-    int first, count;
-    bool (*color)(const void *user, int level, unsigned char color[3]);
-    const void *user;
-} image_contour_levels;
-
-/* Smooths away so much of the noise that lines hold together: the more pixels, the more. */
-void image_field_smooth(image_field *);
-/* Draws the lines on the field enlarged to zoom x zoom, from column `left` on. */
-void image_draw_contour_lines(image_canvas *, int left, const image_field *, int zoom, const image_contour_levels *);
+/* The field of the values; with so much of the noise smoothed away that lines hold together: the more pixels, the more.
+ * False when out of memory. */
+bool image_field_of(image_field *, const image_values *, const image_value_scale *);
+void image_field_free(image_field *);
+/* Draws the levels' lines on the field enlarged to zoom x zoom, from column `left` on. */
+void image_draw_contour_lines(image_canvas *, int left, const image_field *, int zoom, const image_levels *);
 
 #endif

@@ -1,78 +1,54 @@
 /* Lines of equal luminance over a picture, as in the paper's Figures 2 and 8. */
 #include "image/image.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 
-#include "image/canvas.h"
 #include "image/color.h"
 #include "image/contour_lines.h"
 #include "image/legend.h"
-#include "image/value_scale.h"
 
-enum { DECADES = 4 };         /* as many below the maximum, and no more */
+static const double decades = 4; /* as many below the maximum, and no more */
+/* What is darker counts as lying a little below the lowest line. */
+static const double margin = 0.01;
 enum { SMALLEST_SIDE = 400 }; /* smaller pictures are enlarged, by a whole number */
 enum { LARGEST_ZOOM = 32 };
 
-/* Levels first, first + 1, ... are at 10^(level / per_decade). */
-typedef struct levels {
-    int first, count, per_decade;
-} levels;
-
-static double luminance(const image *picture, size_t i) {
-    return IMAGE_LUMINOUS_EFFICACY * image_brightness(picture->channels, i);
+/* A line for each division. */
+static image_value_scale scale_between(int lowest, int highest, int per_decade) {
+    return (image_value_scale){.high = pow(10, (double)highest / per_decade),
+                               .decades = (double)(highest - lowest) / per_decade,
+                               .divisions = highest - lowest};
 }
 
-/* log10 of the luminance in cd/m^2, smoothed, times `per_decade`. */
-static bool make_field(image_field *f, const image *picture, int per_decade) {
-    size_t count = (size_t)picture->width * (size_t)picture->height;
-    *f = (image_field){picture->width, picture->height, malloc(count * sizeof(float))};
-    if (!f->values)
-        return false;
-    double brightest = 0;
-    for (size_t i = 0; i < count; i++)
-        brightest = fmax(brightest, luminance(picture, i));
-    /* A little below the lowest level, so that black is below it too. */
-    double floor_value = brightest > 0 ? log10(brightest) - DECADES - 0.01 : 0;
-    for (size_t i = 0; i < count; i++) {
-        double here = luminance(picture, i);
-        f->values[i] = (float)(per_decade * (here > 0 ? fmax(log10(here), floor_value) : floor_value));
-    }
-    image_field_smooth(f);
-    return true;
+/* The powers of 10^(1 / per_decade) around all that may have lines. */
+static image_value_scale widest_scale(const image_values *values, int per_decade, int *lowest) {
+    double largest = image_values_largest(values), top = largest > 0 ? log10(largest) : 0;
+    *lowest = (int)floor(per_decade * (top - decades - margin));
+    return scale_between(*lowest, (int)ceil(per_decade * top), per_decade);
 }
 
-static levels choose_levels(const image_field *f, int per_decade) {
+static void raise_dark_values(image_values *values) {
+    double least = image_values_largest(values) * pow(10, -decades - margin);
+    for (size_t i = 0; i < (size_t)values->width * (size_t)values->height; i++)
+        values->values[i] = (float)fmax(values->values[i], least);
+}
+
+/* Numbers the field's places anew, on a scale from the lowest line that it has to the highest, which it gives. A single
+ * line is in the middle. */
+static image_value_scale fit_scale(image_field *f, int lowest, int per_decade, image_levels *levels) {
+    size_t count = (size_t)f->width * (size_t)f->height;
     double minimum = HUGE_VAL, maximum = -HUGE_VAL;
-    for (size_t i = 0; i < (size_t)f->width * (size_t)f->height; i++) {
-        minimum = fmin(minimum, f->values[i]);
-        maximum = fmax(maximum, f->values[i]);
+    for (size_t i = 0; i < count; i++) {
+        minimum = fmin(minimum, f->places[i]);
+        maximum = fmax(maximum, f->places[i]);
     }
-    int first = (int)ceil(fmax(minimum, maximum - DECADES * per_decade)), last = (int)floor(maximum);
-    return (levels){first, last < first ? 0 : last - first + 1, per_decade};
-}
-
-/* Blue at the lowest through green and yellow to red at the highest: all bright, to be seen on the picture. */
-static bool level_color(const void *user, int level, unsigned char color[3]) {
-    const levels *l = user;
-    static const unsigned char stops[][3] = {{80, 110, 255}, {0, 200, 255}, {0, 220, 90},  {255, 235, 0},
-                                             {255, 140, 0},  {255, 40, 40}, {255, 90, 220}};
-    enum { LAST = sizeof stops / sizeof *stops - 1 };
-    double at = l->count > 1 ? LAST * (double)(level - l->first) / (l->count - 1) : LAST / 2.0;
-    int stop = at < LAST ? (int)at : LAST - 1;
-    for (int c = 0; c < 3; c++)
-        color[c] = (unsigned char)(stops[stop][c] + (at - stop) * (stops[stop + 1][c] - stops[stop][c]) + 0.5);
-    return true;
-}
-
-static image_legend_entry *make_entries(const levels *l) {
-    image_legend_entry *entries = calloc((size_t)l->count + 1, sizeof *entries);
-    for (int i = 0; entries && i < l->count; i++) {
-        entries[i].at = l->count > 1 ? (double)i / (l->count - 1) : 0.5;
-        image_three_digits_text(pow(10, (double)(l->first + i) / l->per_decade), entries[i].text);
-        level_color(l, l->first + i, entries[i].color);
-    }
-    return entries;
+    int first = (int)ceil(fmax(minimum, maximum - decades * per_decade)), last = (int)floor(maximum);
+    levels->count = last < first ? 0 : last - first + 1;
+    levels->first = levels->count > 1 ? 0 : 1;
+    int bottom = first - levels->first, top = levels->count > 1 ? last : bottom + 2;
+    for (size_t i = 0; i < count; i++)
+        f->places[i] -= (float)bottom;
+    return scale_between(lowest + bottom, lowest + top, per_decade);
 }
 
 static int choose_zoom(const image *picture) {
@@ -81,31 +57,44 @@ static int choose_zoom(const image *picture) {
     return zoom < LARGEST_ZOOM ? zoom : LARGEST_ZOOM;
 }
 
-static bool draw(image_canvas *canvas, const image *picture, const image_field *f, const levels *l) {
+static bool draw(image_canvas *canvas, const image *picture, const image_field *f, const image_levels *levels) {
     int zoom = choose_zoom(picture);
-    image_legend_entry *entries = make_entries(l);
+    image_legend legend = {.label = "cd/m2"};
+    image_legend_entry *entries = image_legend_entries(levels, -1, &legend.count);
     if (!entries)
         return false;
-    image_legend legend = {.label = "cd/m2", .entries = entries, .count = l->count};
+    legend.entries = entries;
     image_legend_size size = image_legend_fit(&legend, picture->height * zoom, -1, -1);
-    image_contour_levels lines = {l->first, l->count, level_color, l};
     bool drawn = image_canvas_create(canvas, size.width + picture->width * zoom, size.height) &&
                  image_draw_backdrop(canvas, size.width, picture, zoom);
     if (drawn) {
-        image_draw_contour_lines(canvas, size.width, f, zoom, &lines);
+        image_draw_contour_lines(canvas, size.width, f, zoom, levels);
         image_legend_draw(&legend, &size, canvas);
     }
     free(entries);
     return drawn;
 }
 
-static bool draw_contours(image_canvas *canvas, const image *picture, int per_decade) {
+static bool draw_values(image_canvas *canvas, const image *picture, const image_values *values, int per_decade) {
+    int lowest;
+    image_value_scale scale = widest_scale(values, per_decade, &lowest);
     image_field f;
-    if (!make_field(&f, picture, per_decade))
+    if (!image_field_of(&f, values, &scale))
         return false;
-    levels l = choose_levels(&f, per_decade);
-    bool drawn = draw(canvas, picture, &f, &l);
-    free(f.values);
+    image_levels levels = {.scale = &scale, .palette = image_palette_find("vivid"), .without = -1};
+    scale = fit_scale(&f, lowest, per_decade, &levels);
+    bool drawn = draw(canvas, picture, &f, &levels);
+    image_field_free(&f);
+    return drawn;
+}
+
+static bool draw_contours(image_canvas *canvas, const image *picture, int per_decade) {
+    image_values values;
+    if (!image_values_of(&values, picture, IMAGE_LUMINOUS_EFFICACY))
+        return false;
+    raise_dark_values(&values);
+    bool drawn = draw_values(canvas, picture, &values, per_decade);
+    image_values_free(&values);
     return drawn;
 }
 

@@ -18,7 +18,7 @@ enum { COUNTED_CLASSES = 40 };
 static int median_class(const image *picture, size_t count) {
     size_t classes[CLASSES] = {0}, lit = 0, below = 0;
     for (size_t i = 0; i < count; i++) {
-        double brightness = image_brightness(picture->channels, i);
+        double brightness = image_visible_brightness(picture->channels, i);
         if (brightness > 0) {
             classes[(int)floor(2 * log2(brightness)) + MIDDLE_CLASS]++;
             lit++;
@@ -38,7 +38,7 @@ static double exposure_of(const image *picture, size_t count) {
     double sum = 0;
     size_t counted = 0;
     for (size_t i = 0; i < count; i++) {
-        double brightness = image_brightness(picture->channels, i);
+        double brightness = image_visible_brightness(picture->channels, i);
         if (brightness > 0 && abs((int)floor(2 * log2(brightness)) + MIDDLE_CLASS - median) <= COUNTED_CLASSES) {
             sum += log(brightness);
             counted++;
@@ -50,7 +50,7 @@ static double exposure_of(const image *picture, size_t count) {
 static double brightest_of(const image *picture, size_t count) {
     double brightest = 0;
     for (size_t i = 0; i < count; i++)
-        brightest = fmax(brightest, image_brightness(picture->channels, i));
+        brightest = fmax(brightest, image_visible_brightness(picture->channels, i));
     return brightest;
 }
 

@@ -37,18 +37,17 @@ static bool color_at(const void *user, double at, unsigned char color[3]) {
     return true;
 }
 
-/* Where pictures hardly differ, noise alone would draw lines at 0. */
-static bool level_color(const void *user, int level, unsigned char color[3]) {
-    const image_false_color *f = user;
-    image_palette_color(f->palette, (double)level / f->scale.divisions, color);
-    return f->style != IMAGE_FALSE_COLOR_LINES || f->scale.low >= 0 || 2 * level != f->scale.divisions;
-}
-
-/* Whether the legend and the lines begin above the scale's lower end, as Radiance's do; that is of use only where
- * values go on below it. */
-static int first_level(const image_false_color *f) {
+/* Lines, bands and their legend begin above the scale's lower end, as Radiance's do, unless values go on below it.
+ * Where pictures hardly differ, noise alone would draw lines at 0. */
+static image_levels levels_of(const image_false_color *f) {
     bool whole = f->style == IMAGE_FALSE_COLOR_SMOOTH || f->style == IMAGE_FALSE_COLOR_POSTER;
-    return whole || f->scale.low < 0 ? 0 : 1;
+    int first = whole || f->scale.low < 0 ? 0 : 1, divisions = f->scale.divisions;
+    bool around_zero = f->style == IMAGE_FALSE_COLOR_LINES && f->scale.low < 0 && divisions % 2 == 0;
+    return (image_levels){.scale = &f->scale,
+                          .palette = f->palette,
+                          .first = first,
+                          .count = divisions + 1 - first,
+                          .without = around_zero ? divisions / 2 : -1};
 }
 
 static void draw_colors(image_canvas *canvas, int left, const image_values *values, const image_false_color *f) {
@@ -65,21 +64,12 @@ static void draw_colors(image_canvas *canvas, int left, const image_values *valu
 }
 
 static bool draw_lines(image_canvas *canvas, int left, const image_values *values, const image_false_color *f) {
-    size_t count = (size_t)values->width * (size_t)values->height;
-    image_field field = {values->width, values->height, malloc(count * sizeof(float))};
-    if (!field.values)
+    image_field field;
+    if (!image_field_of(&field, values, &f->scale))
         return false;
-    int divisions = f->scale.divisions;
-    for (size_t i = 0; i < count; i++) {
-        /* What is far off the scale must not blur the lines at its ends, nor what is missing make lines of its own. */
-        double at = isnan(values->values[i]) ? 0.5 : image_scale_position(&f->scale, values->values[i]);
-        field.values[i] = (float)fmin(fmax(at * divisions, -1), divisions + 1);
-    }
-    image_field_smooth(&field);
-    int first = first_level(f);
-    image_contour_levels levels = {first, divisions + 1 - first, level_color, f};
+    image_levels levels = levels_of(f);
     image_draw_contour_lines(canvas, left, &field, 1, &levels);
-    free(field.values);
+    image_field_free(&field);
     return true;
 }
 
@@ -132,21 +122,6 @@ static void draw_extrema(image_canvas *canvas, int left, const image_values *val
     mark(canvas, left, values, largest, scale);
 }
 
-static image_legend_entry *make_entries(const image_false_color *f, int *count) {
-    int first = first_level(f);
-    *count = f->scale.divisions + 1 - first;
-    image_legend_entry *entries = calloc((size_t)*count, sizeof *entries);
-    int kept = 0;
-    for (int i = 0; entries && i < *count; i++) {
-        image_legend_entry *entry = &entries[kept];
-        entry->at = (double)(first + i) / f->scale.divisions;
-        image_scale_text(&f->scale, first + i, f->decimals, entry->text);
-        kept += level_color(f, first + i, entry->color);
-    }
-    *count = kept;
-    return entries;
-}
-
 static bool draw_all(image_canvas *canvas, const image_legend *legend, const image_values *values,
                      const image *backdrop, const image_false_color *f) {
     bool none = f->style == IMAGE_FALSE_COLOR_NONE;
@@ -168,8 +143,9 @@ static bool draw_all(image_canvas *canvas, const image_legend *legend, const ima
 bool image_draw_false_color(image_canvas *canvas, const image_values *values, const image *backdrop,
                             const image_false_color *f) {
     *canvas = (image_canvas){0, 0, NULL};
-    image_legend legend = {.label = f->label, .user = f};
-    image_legend_entry *entries = make_entries(f, &legend.count);
+    image_legend legend = {.label = f->label, .user = f, .centered = f->scale.low < 0};
+    image_levels levels = levels_of(f);
+    image_legend_entry *entries = image_legend_entries(&levels, f->decimals, &legend.count);
     if (!entries)
         return false;
     legend.entries = entries;

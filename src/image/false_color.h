@@ -7,6 +7,7 @@
 #include "image/canvas.h"
 #include "image/palette.h"
 #include "image/value_scale.h"
+#include "image/values.h"
 
 typedef enum image_false_color_style {
     IMAGE_FALSE_COLOR_SMOOTH, /* every value has its colour */
@@ -15,24 +16,6 @@ typedef enum image_false_color_style {
     IMAGE_FALSE_COLOR_POSTER, /* one colour from each division to the next */
     IMAGE_FALSE_COLOR_NONE,   /* no colours, no legend */
 } image_false_color_style;
-
-/* Numbers for a picture's pixels; NaN where there is none. */
-typedef struct image_values {
-    int width, height;
-    float *values;
-    int missing; /* how many are NaN */
-} image_values;
-
-/* Brightness times `multiplier` (179: luminance in cd/m^2). False when out of memory. */
-bool image_values_of(image_values *, const image *, double multiplier);
-/* (A - B) / B, in brightness; NaN where B is black. The pictures have the same size. False when out of memory. */
-bool image_relative_difference(image_values *, const image *a, const image *b);
-void image_values_free(image_values *);
-/* The largest value, and 0 at least. */
-double image_values_largest(const image_values *);
-/* What 99 of 100 values are below, up to their sign: a few stray pixels must not hide the rest. False when out of
- * memory. */
-bool image_values_usual_size(const image_values *, double *size);
 
 typedef struct image_false_color {
     image_false_color_style style;

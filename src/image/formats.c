@@ -35,6 +35,22 @@ static graze_status check_suffix(const char *file, const graze_report *report) {
                         known);
 }
 
+graze_status image_check_size(const char *file, int width, int height, const graze_report *report) {
+    const image_oiio *module;
+    if (image_format_of(file) != IMAGE_FORMAT_OTHER)
+        return GRAZE_OK;
+    graze_status status = image_module_open(&module, file, report);
+    if (status != GRAZE_OK)
+        return status;
+    const char *suffix = image_suffix(file);
+    int longest = module->longest_side(suffix);
+    if (width <= longest && height <= longest)
+        return GRAZE_OK;
+    return report_error(report, &(place){.file = file},
+                        "a picture of %d x %d pixels is too large for .%s, which has room for %d a side", width, height,
+                        suffix, longest);
+}
+
 graze_status image_check_writable(const char *file, const graze_report *report) {
     graze_status status = check_suffix(file, report);
     return status == GRAZE_OK ? image_output_check(file, report) : status;

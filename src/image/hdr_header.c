@@ -86,17 +86,24 @@ static bool read_reals(const char *text, int count, double *values) {
     return text[strspn(text, " \t")] == 0;
 }
 
-/* Multiplies positive factors into what earlier lines gave. */
-static bool multiply_reals(const char *text, int count, double *products) {
+/* Multiplies one or three positive factors into what earlier lines gave. */
+static graze_status take_factors(const char *text, int count, double *products, const char *name,
+                                 const image_source *source, const header_line *line) {
+    place where = {.file = source->name, .line = line->number};
     double factors[3];
-    if (!read_reals(text, count, factors))
-        return false;
+    bool good = read_reals(text, count, factors);
+    for (int i = 0; i < count && good; i++)
+        good = factors[i] > 0;
+    if (!good)
+        return report_error(source->report, &where, "%s must be %s", name,
+                            count == 1 ? "one positive number" : "three positive numbers");
     for (int i = 0; i < count; i++) {
         products[i] *= factors[i];
-        if (!(factors[i] > 0) || !(products[i] > 1e-37 && products[i] < 1e37))
-            return false;
+        if (!(products[i] > 1e-37 && products[i] < 1e37))
+            return report_error(source->report, &where, "the product of the picture's %s is not within 1e-37 and 1e37",
+                                name);
     }
-    return true;
+    return GRAZE_OK;
 }
 
 /* *target becomes `text`, behind what it was and a blank where `join` is set. */
@@ -143,14 +150,11 @@ static graze_status take_line(image_hdr_header *header, const image_source *sour
         if (!read_format(value, header))
             return header_error(source, line, "only 32-bit_rle_rgbe and 32-bit_rle_xyze pictures can be read");
     } else if ((value = value_of(line->text, "EXPOSURE"))) {
-        if (!multiply_reals(value, 1, &header->exposure))
-            return header_error(source, line, "EXPOSURE must be one positive number");
+        return take_factors(value, 1, &header->exposure, "EXPOSURE", source, line);
     } else if ((value = value_of(line->text, "COLORCORR"))) {
-        if (!multiply_reals(value, 3, header->correction))
-            return header_error(source, line, "COLORCORR must be three positive numbers");
+        return take_factors(value, 3, header->correction, "COLORCORR", source, line);
     } else if ((value = value_of(line->text, "PIXASPECT"))) {
-        if (!multiply_reals(value, 1, &header->pixel_aspect))
-            return header_error(source, line, "PIXASPECT must be one positive number");
+        return take_factors(value, 1, &header->pixel_aspect, "PIXASPECT", source, line);
     } else if ((value = value_of(line->text, "PRIMARIES"))) {
         if (!read_primaries(value, header))
             return header_error(source, line, "PRIMARIES must be eight numbers");
@@ -164,7 +168,7 @@ static graze_status take_line(image_hdr_header *header, const image_source *sour
     return memory ? GRAZE_OK : report_out_of_memory(source->report);
 }
 
-/* One half of the resolution line: "-Y 512". */
+/* One half of the resolution line: "-Y 512". A length too large is one above LONGEST_SIDE. */
 static bool read_axis(const char **text, char *axis, bool *negative, int *length) {
     *text += strspn(*text, " \t");
     if ((*text)[0] != '+' && (*text)[0] != '-')
@@ -176,10 +180,10 @@ static bool read_axis(const char **text, char *axis, bool *negative, int *length
     *text += 2;
     *text += strspn(*text, " \t");
     size_t digits = strspn(*text, "0123456789");
-    if (digits < 1 || digits > 9)
+    if (digits < 1)
         return false;
     *length = 0;
-    for (size_t i = 0; i < digits; i++)
+    for (size_t i = 0; i < digits && *length <= LONGEST_SIDE; i++)
         *length = 10 * *length + ((*text)[i] - '0');
     *text += digits;
     return true;
@@ -202,7 +206,7 @@ static graze_status take_resolution(image_hdr_header *header, const image_source
     if (header->width < 1 || header->height < 1)
         return header_error(source, line, "the picture is empty");
     if (header->width > LONGEST_SIDE || header->height > LONGEST_SIDE)
-        return header_error(source, line, "a side of the picture is longer than 1048576 pixels");
+        return header_error(source, line, "the picture is too large: a side is longer than 1048576 pixels");
     return GRAZE_OK;
 }
 

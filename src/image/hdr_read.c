@@ -199,7 +199,7 @@ static void decode_pixels(image *picture, const image_hdr_header *header, const 
         size_t i = pixel_index(header, n);
         for (int c = 0; c < 3; c++) {
             double value = matrix->m[c][0] * v[0] + matrix->m[c][1] * v[1] + matrix->m[c][2] * v[2];
-            picture->channels[c][i] = number_to_float(fmax(value, 0));
+            picture->channels[c][i] = number_to_float(value);
         }
     }
 }

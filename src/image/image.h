@@ -41,18 +41,21 @@ graze_status image_write_hdr(const image *, FILE *, const char *name, const graz
  * another name, then renamed); a failing write is a system error and leaves nothing behind. What is no regular file (a
  * pipe, /dev/stdout, /dev/null) is written to directly; without a suffix it gets Radiance HDR. */
 graze_status image_write(const image *, const char *file, const graze_report *);
-/* Whether image_write will know the format of the file's suffix and may write there, checked before a long rendering.
- */
+/* Whether image_write will know the format of the file's suffix and may write there, checked before a long rendering: a
+ * file that is there must be one that the user may write. */
 graze_status image_check_writable(const char *file, const graze_report *);
-/* Reads HDR itself, in any orientation, XYZE and foreign primaries converted to Radiance's; everything else through
- * OpenImageIO: channels as named in the file (one channel: gray to R, G, B), values of pictures that are sRGB made
- * linear; what is not finite in R, G, B becomes 0 (NaN) or the largest float. */
+/* Whether that format has room for so large a picture: an input error if not, which image_write gives as well. */
+graze_status image_check_size(const char *file, int width, int height, const graze_report *);
+/* Reads HDR itself, in any orientation and also from a pipe, XYZE and foreign primaries converted to Radiance's;
+ * everything else through OpenImageIO: channels as named in the file (one channel: gray to R, G, B), values of pictures
+ * that are sRGB made linear; what is not finite in R, G, B becomes 0 (NaN) or the largest float. Colours beyond
+ * Radiance's primaries have negative channels, so that the others still add up to their luminance; image_expose and
+ * image_write_hdr take them for 0. */
 graze_status image_read(image **, const char *file, const graze_report *);
 
 /* 8-bit sRGB for people: linear values times `display_exposure` or, where that is 0, an exposure that puts the
  * picture's log-average brightness at 0.18, what is brighter than half of white compressed by the logarithm, up to the
- * picture's brightest; 3 * width * height bytes.
- */
+ * picture's brightest, negative values like 0; 3 * width * height bytes. */
 void image_expose(const image *, unsigned char *bytes);
 
 /* Draws lines of equal luminance (cd/m^2 = 179 x brightness) over the exposed picture: `per_decade` levels a factor of

@@ -1,7 +1,9 @@
 // The one C++ file: OpenImageIO behind the C interface of image/oiio.h.
 #include "image/oiio.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -9,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -45,7 +48,8 @@ template <typename Result, typename Work> Result guarded(Result failure, char *m
     return failure;
 }
 
-// A file that remembers a failing write: several of OpenImageIO's formats let them pass unnoticed.
+// A file that remembers a failing write: several of OpenImageIO's formats let them pass unnoticed. It gathers what is
+// written in a row, for some formats come byte by byte.
 class checked_file final : public OIIO::Filesystem::IOProxy {
   public:
     explicit checked_file(const char *path) : IOProxy(path, Write) {}
@@ -60,6 +64,7 @@ class checked_file final : public OIIO::Filesystem::IOProxy {
         descriptor = ::open(m_filename.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor < 0)
             error = errno;
+        gathered.reserve(room);
         return descriptor >= 0;
     }
     const char *proxytype() const override { return "graze"; }
@@ -74,14 +79,46 @@ class checked_file final : public OIIO::Filesystem::IOProxy {
         return done;
     }
     std::size_t pread(void *buffer, std::size_t count, std::int64_t offset) override {
-        ssize_t done = ::pread(descriptor, buffer, count, offset);
+        ssize_t done = write_gathered() ? ::pread(descriptor, buffer, count, offset) : -1;
         return done > 0 ? static_cast<std::size_t>(done) : 0;
     }
     std::size_t pwrite(const void *buffer, std::size_t count, std::int64_t offset) override {
+        if ((offset != gathered_end() || gathered.size() + count > room) && !write_gathered())
+            return 0;
+        const char *bytes = static_cast<const char *>(buffer);
+        if (count > room)
+            return write_out(bytes, count, offset);
+        if (gathered.empty())
+            gathered_begin = offset;
+        gathered.insert(gathered.end(), bytes, bytes + count);
+        return count;
+    }
+    std::size_t size() const override {
+        struct stat status;
+        std::int64_t written = fstat(descriptor, &status) == 0 ? status.st_size : 0;
+        return static_cast<std::size_t>(gathered.empty() ? written : std::max(written, gathered_end()));
+    }
+
+    // errno of the first trouble, the closing's included; 0 for none.
+    int finish() {
+        write_gathered();
+        int closed = descriptor >= 0 ? ::close(descriptor) : 0;
+        descriptor = -1;
+        return error ? error : closed != 0 ? errno : 0;
+    }
+
+  private:
+    static constexpr std::size_t room = 1 << 16;
+    int descriptor = -1;
+    int error = 0;
+    std::vector<char> gathered;
+    std::int64_t gathered_begin = 0;
+
+    std::int64_t gathered_end() const { return gathered_begin + static_cast<std::int64_t>(gathered.size()); }
+    std::size_t write_out(const char *bytes, std::size_t count, std::int64_t offset) {
         std::size_t done = 0;
         while (done < count) {
-            ssize_t now = ::pwrite(descriptor, static_cast<const char *>(buffer) + done, count - done,
-                                   offset + static_cast<std::int64_t>(done));
+            ssize_t now = ::pwrite(descriptor, bytes + done, count - done, offset + static_cast<std::int64_t>(done));
             if (now < 0 && errno == EINTR)
                 continue;
             if (now <= 0) {
@@ -92,27 +129,19 @@ class checked_file final : public OIIO::Filesystem::IOProxy {
         }
         return done;
     }
-    std::size_t size() const override {
-        struct stat status;
-        return fstat(descriptor, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+    bool write_gathered() {
+        if (error == 0 && !gathered.empty())
+            write_out(gathered.data(), gathered.size(), gathered_begin);
+        gathered.clear();
+        return error == 0;
     }
-
-    // errno of the first trouble, the closing's included; 0 for none.
-    int finish() {
-        int closed = descriptor >= 0 ? ::close(descriptor) : 0;
-        descriptor = -1;
-        return error ? error : closed != 0 ? errno : 0;
-    }
-
-  private:
-    int descriptor = -1;
-    int error = 0;
 };
 
 // Formats that keep nothing of a picture or no colours, that cannot be kept from writing the date, and those that Graze
-// writes itself, as floats.
+// writes itself, as floats. OpenImageIO 2.4 crashes in writing a large GIF, and cuts one with a side above 65535.
 bool is_picture_format(const std::string &name) {
-    return name != "null" && name != "term" && name != "zfile" && name != "rla" && name != "hdr" && name != "openexr";
+    return name != "null" && name != "term" && name != "zfile" && name != "rla" && name != "hdr" && name != "openexr" &&
+           name != "gif";
 }
 
 int can_write(const char *suffix) {
@@ -122,6 +151,24 @@ int can_write(const char *suffix) {
         if (!output)
             OIIO::geterror(); // or it would be printed at exit
         return output && is_picture_format(output->format_name()) ? 1 : 0;
+    });
+}
+
+// What the formats hold, or their libraries write. libjpeg ends the process beyond that, libpng and libwebp give no
+// reason.
+int longest_side(const char *suffix) {
+    static const std::pair<const char *, int> limits[] = {{"ico", 256},     {"iff", 8192},  {"jpeg", 65500},
+                                                          {"png", 1000000}, {"sgi", 65534}, {"targa", 65535},
+                                                          {"webp", 16383}};
+    char ignored[1];
+    return guarded(INT_MAX, ignored, sizeof ignored, [&] {
+        auto output = OIIO::ImageOutput::create(std::string("picture.") + suffix);
+        if (!output)
+            OIIO::geterror();
+        for (const auto &[name, limit] : limits)
+            if (output && std::strcmp(output->format_name(), name) == 0)
+                return limit;
+        return INT_MAX;
     });
 }
 
@@ -168,33 +215,35 @@ bool has_sound_proxy(const OIIO::ImageOutput &output) {
     return output.supports("ioproxy") && std::strcmp(output.format_name(), "tiff") != 0;
 }
 
-// Formats that can only write to a file of their own opening are checked by reading.
-int write_by_name(OIIO::ImageOutput &output, const char *file, const OIIO::ImageSpec &spec, const unsigned char *pixels,
-                  char *message, std::size_t message_size) {
-    if (!output.open(file, spec) || !output.write_image(OIIO::TypeDesc::UINT8, pixels) || !output.close()) {
-        say(message, message_size, output.geterror());
-        return 0;
-    }
-    if (is_complete(file, spec.width, spec.height))
-        return 1;
-    say(message, message_size, "the file came out incomplete");
-    return 0;
+// What is wrong, in the library's words, which know the file by another name than the user does.
+std::string reason_of(const OIIO::ImageOutput &output, const std::string &file, const char *name) {
+    std::string text = output.geterror();
+    for (std::size_t at = text.find(file); at != std::string::npos; at = text.find(file, at + std::strlen(name)))
+        text.replace(at, file.size(), name);
+    return text.empty() ? "OpenImageIO gives no reason" : text;
 }
 
-int write_checked(OIIO::ImageOutput &output, checked_file &file, const OIIO::ImageSpec &spec,
-                  const unsigned char *pixels, char *message, std::size_t message_size) {
+// Empty for success.
+std::string write_by_name(OIIO::ImageOutput &output, const char *file, const char *name, const OIIO::ImageSpec &spec,
+                          const unsigned char *pixels) {
+    bool written = output.open(file, spec) && output.write_image(OIIO::TypeDesc::UINT8, pixels) && output.close();
+    return written ? "" : reason_of(output, file, name);
+}
+
+std::string write_checked(OIIO::ImageOutput &output, checked_file &file, const char *name, const OIIO::ImageSpec &spec,
+                          const unsigned char *pixels) {
     bool written = file.create() && output.set_ioproxy(&file) && output.open(file.filename(), spec) &&
                    output.write_image(OIIO::TypeDesc::UINT8, pixels) && output.close();
     int error = file.finish();
     if (error)
-        say(message, message_size, std::generic_category().message(error));
-    else if (!written)
-        say(message, message_size, output.geterror());
-    return written && !error ? 1 : 0;
+        return std::generic_category().message(error);
+    return written ? "" : reason_of(output, file.filename(), name);
 }
 
-int write(const char *file, int width, int height, const unsigned char *rgb, const image_oiio_header *header,
-          char *message, std::size_t message_size) {
+// Formats that can only write to a file of their own opening let failing writes pass, and some cut what they cannot
+// hold: every file is read again.
+int write(const char *file, const char *name, int width, int height, const unsigned char *rgb,
+          const image_oiio_header *header, char *message, std::size_t message_size) {
     return guarded(0, message, message_size, [&] {
         checked_file checked(file); // outlives `output`, which may turn to it until its very end
         auto output = OIIO::ImageOutput::create(file);
@@ -203,8 +252,13 @@ int write(const char *file, int width, int height, const unsigned char *rgb, con
             return 0;
         }
         OIIO::ImageSpec spec = describe(width, height, header);
-        return has_sound_proxy(*output) ? write_checked(*output, checked, spec, rgb, message, message_size)
-                                        : write_by_name(*output, file, spec, rgb, message, message_size);
+        std::string trouble = has_sound_proxy(*output) ? write_checked(*output, checked, name, spec, rgb)
+                                                       : write_by_name(*output, file, name, spec, rgb);
+        if (trouble.empty() && !is_complete(file, width, height))
+            trouble = "the file came out incomplete";
+        if (!trouble.empty())
+            say(message, message_size, trouble);
+        return trouble.empty() ? 1 : 0;
     });
 }
 
@@ -280,7 +334,8 @@ void close(image_oiio_reader *reader) {
     });
 }
 
-const image_oiio interface = {can_write, list_writable, write, open, channel_name, is_srgb, header, read, close};
+const image_oiio interface = {can_write,    longest_side, list_writable, write, open,
+                              channel_name, is_srgb,      header,        read,  close};
 
 } // namespace
 

@@ -22,11 +22,13 @@ typedef struct image_oiio_reader image_oiio_reader;
  */
 typedef struct image_oiio {
     int (*can_write)(const char *suffix);
+    /* In pixels; INT_MAX where none is known. */
+    int (*longest_side)(const char *suffix);
     /* The suffixes that can be written, with points and commas, cut to `size`. */
     void (*list_writable)(char *text, size_t size);
-    /* 3 * width * height bytes of sRGB, in the format of the file's suffix. */
-    int (*write)(const char *file, int width, int height, const unsigned char *rgb, const image_oiio_header *,
-                 char *message, size_t message_size);
+    /* 3 * width * height bytes of sRGB, in the format of the file's suffix. Messages call the file `name`. */
+    int (*write)(const char *file, const char *name, int width, int height, const unsigned char *rgb,
+                 const image_oiio_header *, char *message, size_t message_size);
 
     image_oiio_reader *(*open)(const char *file, int *width, int *height, int *channels, char *message,
                                size_t message_size);

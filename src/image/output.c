@@ -38,8 +38,8 @@ static graze_status make_temporary(image_output *output, const char *directory, 
     if (!output->path)
         return report_out_of_memory(output->report);
     int descriptor = -1;
-    for (int attempt = 0; attempt < 1000 && descriptor < 0; attempt++) {
-        /* No number of the process: some formats keep the name. */
+    for (int attempt = 0; descriptor < 0 && attempt < INT_MAX; attempt++) {
+        /* No number of the process: DPX keeps the name, and the same picture is to give the same bytes. */
         snprintf(output->path, size, "%.*s.graze-%d.%s", (int)length, directory, attempt, suffix);
         descriptor = open(output->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor < 0 && errno != EEXIST)
@@ -73,11 +73,12 @@ graze_status image_output_check(const char *file, const graze_report *report) {
     if (!directory)
         return report_out_of_memory(report);
     bool good = access(directory, W_OK | X_OK) == 0;
-    /* A name too long shows only when it is looked up itself. */
-    if (good && access(file, F_OK) != 0)
-        good = errno != ENAMETOOLONG;
     free(directory);
-    return good ? GRAZE_OK : report_file_error(report, &where, "cannot be created");
+    if (!good)
+        return report_file_error(report, &where, "cannot be created");
+    /* Renaming would replace a file whoever may write it. A name too long shows only here, too. */
+    return access(file, W_OK) == 0 || errno == ENOENT ? GRAZE_OK
+                                                      : report_file_error(report, &where, "cannot be written");
 }
 
 static graze_status begin_special(image_output *output, bool direct) {

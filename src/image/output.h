@@ -19,8 +19,8 @@ const char *image_suffix(const char *file);
 /* Whether the name stands for something that is no regular file, such as a pipe, a device or /dev/stdout. */
 bool image_output_is_special(const char *file);
 
-/* Whether `file` could be written there, as far as that can be told beforehand: its directory lets files be made, and
- * it is no directory itself. */
+/* Whether `file` could be written there, as far as that can be told beforehand: its directory lets files be made, it
+ * is no directory itself and, if it is there, no file that must not be written. */
 graze_status image_output_check(const char *file, const graze_report *);
 
 /* Makes an empty file under another name with the same suffix, beside `file`; for a special file in the directory for

@@ -2,11 +2,11 @@
 #include "image/palette.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/angle.h"
 #include "image/color.h"
-#include "image/font.h"
 
 struct image_palette {
     const char *name;
@@ -45,6 +45,11 @@ static const unsigned char diverging_stops[][3] = {
     {223, 122, 73},  {205, 92, 30},   {176, 72, 3},    {143, 57, 0},    {111, 42, 1},
 };
 
+/* Blue, green, yellow, red, pink. */
+static const unsigned char vivid_stops[][3] = {
+    {80, 110, 255}, {0, 200, 255}, {0, 220, 90}, {255, 235, 0}, {255, 140, 0}, {255, 40, 40}, {255, 90, 220},
+};
+
 /* Blue to green, up to 3/8, to red. */
 static void spectral(double at, double color[3]) {
     static const double green = 0.375;
@@ -78,7 +83,7 @@ static const image_palette palettes[] = {
     {"pm3d", FORMULA, traditional, 2.2},    {"hot", FORMULA, hot, 2.2},
     {"eco", FORMULA, blue_red_yellow, 2.2}, {"tbo", TABLE(turbo_stops)},
     {"viridis", TABLE(viridis_stops)},      {"gray", TABLE(gray_stops)},
-    {"diverging", TABLE(diverging_stops)},
+    {"diverging", TABLE(diverging_stops)},  {"vivid", TABLE(vivid_stops)},
 };
 enum { PALETTE_COUNT = sizeof palettes / sizeof *palettes };
 
@@ -87,6 +92,14 @@ const image_palette *image_palette_find(const char *name) {
         if (!strcmp(palettes[i].name, name))
             return &palettes[i];
     return NULL;
+}
+
+const image_palette *image_palette_at(int i) {
+    return i < PALETTE_COUNT ? &palettes[i] : NULL;
+}
+
+const char *image_palette_name(const image_palette *palette) {
+    return palette->name;
 }
 
 void image_palette_list(char *text, size_t size) {
@@ -118,22 +131,4 @@ void image_palette_color(const image_palette *palette, double at, unsigned char 
         color_of_table(palette, at, color);
     else
         color_of_formula(palette, at, color);
-}
-
-bool image_draw_palettes(image_canvas *canvas) {
-    static const unsigned char white[3] = {255, 255, 255};
-    enum { MARGIN = 12, BAR = 512, ROW = 40, THICK = 28, NAMES = 130, SCALE = 2 };
-    enum { TEXT_BELOW = (THICK - SCALE * IMAGE_FONT_HEIGHT) / 2 };
-    if (!image_canvas_create(canvas, 2 * MARGIN + NAMES + BAR, 2 * MARGIN + PALETTE_COUNT * ROW - (ROW - THICK)))
-        return false;
-    for (int i = 0; i < PALETTE_COUNT; i++) {
-        int y = MARGIN + i * ROW;
-        image_draw_text(canvas, MARGIN, y + TEXT_BELOW, SCALE, white, palettes[i].name);
-        for (int x = 0; x < BAR; x++) {
-            unsigned char color[3];
-            image_palette_color(&palettes[i], (x + 0.5) / BAR, color);
-            image_fill(canvas, MARGIN + NAMES + x, y, 1, THICK, color);
-        }
-    }
-    return true;
 }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/number.h"
 #include "image/color.h"
@@ -118,6 +119,11 @@ static graze_status read_through_module(image **result, const char *file, const 
     return status;
 }
 
+static bool is_regular(FILE *in) {
+    struct stat status;
+    return fstat(fileno(in), &status) == 0 && S_ISREG(status.st_mode);
+}
+
 graze_status image_read(image **result, const char *file, const graze_report *report) {
     place where = {.file = file};
     *result = NULL;
@@ -132,6 +138,9 @@ graze_status image_read(image **result, const char *file, const graze_report *re
     else if (first == '#' || image_format_of(file) == IMAGE_FORMAT_HDR) {
         ungetc(first, in);
         status = image_read_hdr(result, in, file, report);
+    } else if (!is_regular(in)) {
+        /* OpenImageIO would open it a second time, and wait for another writer. */
+        status = report_error(report, &where, "only Radiance HDR can be read from a pipe");
     }
     fclose(in);
     if (status == GRAZE_OK && !*result)

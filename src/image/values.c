@@ -1,10 +1,11 @@
-/* What false colours show: numbers from pictures. */
+/* Numbers from pictures. */
+#include "image/values.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/number.h"
 #include "image/color.h"
-#include "image/false_color.h"
 
 static bool create(image_values *values, const image *picture) {
     size_t count = (size_t)picture->width * (size_t)picture->height;

@@ -53,14 +53,16 @@ graze_status image_write_bytes(const image *picture, int width, int height, cons
                                const char *file, const graze_report *report) {
     const image_oiio *module;
     image_output output;
-    graze_status status = image_module_open(&module, file, report);
+    graze_status status = image_check_size(file, width, height, report);
+    if (status == GRAZE_OK)
+        status = image_module_open(&module, file, report);
     if (status == GRAZE_OK)
         status = image_output_begin(&output, file, false, report);
     if (status != GRAZE_OK)
         return status;
     image_oiio_header header = {picture->pixel_aspect, NULL, picture->command, picture->software};
     char message[1024];
-    if (!module->write(output.path, width, height, bytes, &header, message, sizeof message)) {
+    if (!module->write(output.path, file, width, height, bytes, &header, message, sizeof message)) {
         report_error(report, &(place){.file = file}, "cannot write the picture: %s", message);
         status = GRAZE_SYSTEM_ERROR;
     }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "base/whole_file.h"
 #include "rad/command.h"
 #include "rad/words.h"
 #include "rad/xform.h"
@@ -347,8 +348,6 @@ static graze_status read_primitive(source *s, int line, int column) {
     return status ? status : s->sink->take(s->sink->user, &raw);
 }
 
-/* ---- Commands ---- */
-
 static graze_status read_command(source *s, int line, int column) {
     rad_reader *reader = s->reader;
     ++s->words.next;
@@ -366,32 +365,6 @@ static graze_status read_command(source *s, int line, int column) {
     return rad_reader_command(reader, command, &inner, s->sink);
 }
 
-graze_status rad_reader_shell(rad_reader *reader, const char *command, const rad_context *context,
-                              const rad_sink *sink) {
-    char name[sizeof(rad_shown) + 1];
-    snprintf(name, sizeof name, "!%s", rad_show(command, strlen(command)).text);
-    const char *kept = arena_copy_text(reader->memory, name, strlen(name));
-    if (!kept)
-        return report_out_of_memory(reader->report);
-    whole_file text;
-    graze_status status = rad_command_output(&text, command, context->directory, context->parent, reader->report);
-    if (status)
-        return status;
-    status = rad_reader_text(reader, &text, kept, context, sink);
-    free(text.bytes);
-    return status;
-}
-
-graze_status rad_reader_command(rad_reader *reader, const char *command, const rad_context *context,
-                                const rad_sink *sink) {
-    rad_pipeline pipeline;
-    if (!rad_pipeline_split(&pipeline, command, reader->memory))
-        return report_out_of_memory(reader->report);
-    if (pipeline.stage_count == 0)
-        return rad_reader_shell(reader, command, context, sink);
-    return rad_xform_run(reader, &pipeline, context, sink);
-}
-
 /* ---- Whole inputs ---- */
 
 /* Scripts that run oconv first hand its result to the renderer. */
@@ -403,8 +376,8 @@ static bool is_octree(const whole_file *text) {
     return found && end && found < end;
 }
 
-graze_status rad_reader_text(rad_reader *reader, const whole_file *text, const char *name, const rad_context *context,
-                             const rad_sink *sink) {
+static graze_status read_text(rad_reader *reader, const whole_file *text, const char *name, const rad_context *context,
+                              const rad_sink *sink) {
     source s = {.reader = reader, .name = name, .context = context, .sink = sink};
     place here = place_at(&s, 0, 0);
     if (context->depth > DEPTH_MOST)
@@ -431,26 +404,50 @@ graze_status rad_reader_text(rad_reader *reader, const whole_file *text, const c
     return status;
 }
 
+/* Reads a text if it was `got`, and frees it. */
+static graze_status read_got(rad_reader *reader, graze_status got, whole_file *text, const char *name,
+                             const rad_context *context, const rad_sink *sink) {
+    graze_status status = got ? got : read_text(reader, text, name, context, sink);
+    free(text->bytes);
+    return status;
+}
+
 graze_status rad_reader_file(rad_reader *reader, const char *path, const rad_context *context, const rad_sink *sink) {
     const char *name = arena_copy_text(reader->memory, path, strlen(path));
     if (!name)
         return report_out_of_memory(reader->report);
     whole_file text;
-    graze_status status = whole_file_open(&text, path, path, context->parent, reader->report);
-    if (status)
-        return status;
-    status = rad_reader_text(reader, &text, name, context, sink);
-    free(text.bytes);
-    return status;
+    graze_status got = whole_file_read_path(&text, path, path, context->parent, reader->report);
+    return read_got(reader, got, &text, name, context, sink);
 }
 
 graze_status rad_reader_standard_input(rad_reader *reader, const rad_context *context, const rad_sink *sink) {
     static const char name[] = "standard input";
     whole_file text;
-    graze_status status = whole_file_read(&text, STDIN_FILENO, name, context->parent, reader->report);
-    if (status)
-        return status;
-    status = rad_reader_text(reader, &text, name, context, sink);
-    free(text.bytes);
-    return status;
+    graze_status got = whole_file_read(&text, STDIN_FILENO, name, context->parent, reader->report);
+    return read_got(reader, got, &text, name, context, sink);
+}
+
+/* ---- Commands ---- */
+
+graze_status rad_reader_shell(rad_reader *reader, const char *command, const rad_context *context,
+                              const rad_sink *sink) {
+    char name[sizeof(rad_shown) + 1];
+    snprintf(name, sizeof name, "!%s", rad_show(command, strlen(command)).text);
+    const char *kept = arena_copy_text(reader->memory, name, strlen(name));
+    if (!kept)
+        return report_out_of_memory(reader->report);
+    whole_file text;
+    graze_status got = rad_command_output(&text, command, context->directory, context->parent, reader->report);
+    return read_got(reader, got, &text, kept, context, sink);
+}
+
+graze_status rad_reader_command(rad_reader *reader, const char *command, const rad_context *context,
+                                const rad_sink *sink) {
+    rad_pipeline pipeline;
+    if (!rad_pipeline_split(&pipeline, command, reader->memory))
+        return report_out_of_memory(reader->report);
+    if (pipeline.stage_count == 0)
+        return rad_reader_shell(reader, command, context, sink);
+    return rad_xform_run(reader, &pipeline, context, sink);
 }

@@ -3,7 +3,6 @@
 #define RAD_READER_H
 
 #include "base/arena.h"
-#include "base/whole_file.h"
 #include "rad/types.h"
 
 /* Types of a rad_raw beyond rad_type. */
@@ -50,7 +49,6 @@ typedef struct rad_context {
 } rad_context;
 
 /* All these hand on an error that reading cannot go on after; of the others see rad_reader's status. */
-graze_status rad_reader_text(rad_reader *, const whole_file *, const char *name, const rad_context *, const rad_sink *);
 graze_status rad_reader_file(rad_reader *, const char *path, const rad_context *, const rad_sink *);
 graze_status rad_reader_standard_input(rad_reader *, const rad_context *, const rad_sink *);
 /* Runs a command (without its `!`), with its xform stages done here. */

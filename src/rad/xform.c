@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/whole_file.h"
 #include "rad/filter.h"
 #include "rad/path.h"
 #include "rad/words.h"
@@ -349,7 +350,7 @@ static graze_status run_file(job *j, const char *const *words, int count, int at
     if (!path)
         return report_out_of_memory(report);
     whole_file text;
-    graze_status status = whole_file_open(&text, path, path, j->context->parent, report);
+    graze_status status = whole_file_read_path(&text, path, path, j->context->parent, report);
     if (status)
         return status;
     rad_words lines;

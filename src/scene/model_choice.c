@@ -37,7 +37,7 @@ graze_status scene_check_models(const graze_scene_settings *settings, const rad_
     for (size_t i = 0; i < settings->model_count; i++) {
         const graze_model_choice *choice = &settings->models[i];
         graze_status status = GRAZE_OK;
-        if (choice->model < GRAZE_BRDF_GMD || choice->model > GRAZE_BRDF_WARD_NEUMANN)
+        if ((int)choice->model < 0 || (int)choice->model >= GRAZE_BRDF_MODEL_COUNT)
             status = report_error(report, NULL, "unknown reflectance model %d", (int)choice->model);
         else if (choice->material)
             status = check_name(choice->material, primitives, count, report);

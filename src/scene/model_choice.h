@@ -5,7 +5,7 @@
 #include "graze/scene.h"
 #include "rad/scene_file.h"
 
-/* Reports choices of models that there are not, and for names of materials that have no model or that there are not. */
+/* Reports unknown models, names that no material has, and names of what has no reflectance model. */
 graze_status scene_check_models(const graze_scene_settings *, const rad_primitive *, size_t count,
                                 const graze_report *);
 

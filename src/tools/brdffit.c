@@ -100,6 +100,22 @@ static graze_status read_total(const char *text, size_t channels, double *total,
     return GRAZE_OK;
 }
 
+/* The models that a word stands for: from the first up to, but not with, the end. */
+typedef struct model_range {
+    int first, end;
+} model_range;
+
+static graze_status find_models(const char *word, model_range *range, const graze_report *report) {
+    graze_brdf_model model;
+    *range = (model_range){0, GRAZE_BRDF_MODEL_COUNT};
+    if (strcmp(word, "all") == 0)
+        return GRAZE_OK;
+    if (!model_find(word, &model))
+        return report_error(report, NULL, "-m: there is no '%s'; expected one of %s all", word, model_list());
+    *range = (model_range){(int)model, (int)model + 1};
+    return GRAZE_OK;
+}
+
 /* A material's name must be one word of a scene. */
 static graze_status check_name(const char *name, const graze_report *report) {
     bool good = *name != 0 && *name != '!' && *name != '#';
@@ -200,13 +216,9 @@ static void warn(const findings *r, const fit_result *f, const graze_report *rep
     }
 }
 
-static graze_status fit_models(findings *r, const char *model, const graze_report *report) {
-    static const char *const words[] = {"gmd", "ward", "ward-duer", "ward-neumann", "all"};
-    int which = 0;
-    graze_status status = find_word("-m", model, words, COUNT(words), &which, report);
-    for (int i = 0; i < FINDINGS_MODELS && status == GRAZE_OK; i++) {
-        if (which != FINDINGS_MODELS && which != i)
-            continue;
+static graze_status fit_models(findings *r, model_range models, const graze_report *report) {
+    graze_status status = GRAZE_OK;
+    for (int i = models.first; i < models.end && status == GRAZE_OK; i++) {
         fit_settings settings = *r->settings;
         settings.model = (graze_brdf_model)i;
         fit_result *f = &r->fits[r->fit_count++];
@@ -233,11 +245,13 @@ static graze_status write_findings(const findings *r, const fit_options *o, cons
 }
 
 /* All that can be wrong before a file is read. */
-static graze_status prepare(const fit_options *o, fit_settings *s, fit_read_options *reading,
+static graze_status prepare(const fit_options *o, model_range *models, fit_settings *s, fit_read_options *reading,
                             const graze_report *report) {
     static const char *const outputs[] = {"table", "json", "rad"};
     int output = 0;
-    graze_status status = read_settings(o, s, report);
+    graze_status status = find_models(o->model, models, report);
+    if (status == GRAZE_OK)
+        status = read_settings(o, s, report);
     reading->columns = o->columns;
     reading->channels = o->channels;
     if (status == GRAZE_OK)
@@ -258,11 +272,12 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
     const fit_options *o = user;
     const graze_report quiet = tool_report(full_report, o->warnings), *messages = &quiet;
     fit_measurements measurements = {0};
+    model_range models;
     fit_settings settings;
     fit_read_options reading = {0};
     double *total = NULL;
     findings r = {.measurements = &measurements, .settings = &settings, .name = o->name};
-    graze_status status = prepare(o, &settings, &reading, messages);
+    graze_status status = prepare(o, &models, &settings, &reading, messages);
     if (status == GRAZE_OK)
         status = read_files(arguments, &reading, &measurements, messages);
     if (status == GRAZE_OK && o->total) {
@@ -272,7 +287,7 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
         settings.total = total;
     }
     if (status == GRAZE_OK)
-        status = fit_models(&r, o->model, messages);
+        status = fit_models(&r, models, messages);
     if (status == GRAZE_OK)
         status = write_findings(&r, o, messages);
     if (status == GRAZE_OK && o->plot)
@@ -298,10 +313,11 @@ int main(int argc, char **argv) {
                      .name = "fitted",
                      .warnings = true,
                      .max_angle = 90};
+    char models[128];
+    snprintf(models, sizeof models, "%s, or all of them side by side", model_list());
     option table[] = {
         {"", OPTION_HEADING, NULL, NULL, "The fit", 0, 0, NULL, NULL},
-        {"-m", OPTION_TEXT, &o.model, "MODEL", "gmd ward ward-duer ward-neumann, or all of them side by side", 0, 0,
-         NULL, NULL},
+        {"-m", OPTION_TEXT, &o.model, "MODEL", models, 0, 0, NULL, NULL},
         {"--isotropic", OPTION_FLAG, &o.isotropic, NULL, "one roughness in all directions (default)", 0, 0, NULL, NULL},
         {"--anisotropic", OPTION_FLAG, &o.anisotropic, NULL, "one along x, one along y", 0, 0, NULL, NULL},
         {"--total-reflectance", OPTION_TEXT, &o.total, "R[,R...]",

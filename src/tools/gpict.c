@@ -6,6 +6,7 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "picture/picture.h"
+#include "tools/common/picture_header.h"
 #include "tools/common/render_options.h"
 #include "tools/common/tool.h"
 
@@ -80,6 +81,16 @@ static graze_status check_outputs(const gpict_options *o, const graze_report *re
     return *o->contours ? image_check_writable(o->contours, report) : GRAZE_OK;
 }
 
+/* Once the view has given the size. A picture with contours has its legend besides. */
+static graze_status check_sizes(const gpict_options *o, const picture_settings *picture, const graze_report *report) {
+    graze_status status = GRAZE_OK;
+    for (int i = 0; i < o->pictures.count && status == GRAZE_OK; i++)
+        status = image_check_size(o->pictures.files[i], picture->width, picture->height, report);
+    if (status == GRAZE_OK && *o->contours)
+        status = image_check_size(o->contours, picture->width, picture->height, report);
+    return status;
+}
+
 static graze_status write_outputs(const gpict_options *o, const image *picture, const graze_report *report) {
     graze_status worst = GRAZE_OK;
     for (int i = 0; i < o->pictures.count; i++) {
@@ -105,12 +116,11 @@ static bool needs_layers(const gpict_options *o) {
 /* Gives the picture its header, writes it, and says what --max-samples cut short. */
 static graze_status finish(const gpict_options *o, const picture_settings *settings, image *picture, size_t unconverged,
                            const tool_arguments *arguments, const graze_report *report) {
-    char view[512], command[2000];
+    char view[512];
+    picture_header header;
     rad_view_print(&settings->view, view, sizeof view);
-    options_command_line(command, sizeof command, arguments->argc, arguments->argv);
     picture->view = view;
-    picture->command = command;
-    picture->software = "Graze " GRAZE_VERSION;
+    picture_header_set(&header, picture, arguments);
     picture->display_exposure = o->exposure;
     if (unconverged)
         report_warning(report, NULL, "%zu of %zu pixels reached --max-samples before --error", unconverged,
@@ -143,8 +153,10 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
         status = tool_check_scenes(arguments, false, report);
     if (status == GRAZE_OK) {
         rad_view_fit(&picture.view, &picture.pixel_aspect, &picture.width, &picture.height);
-        status = graze_scene_load(&scene, arguments->operands, (size_t)arguments->operand_count, &build, report);
+        status = check_sizes(o, &picture, report);
     }
+    if (status == GRAZE_OK)
+        status = graze_scene_load(&scene, arguments->operands, (size_t)arguments->operand_count, &build, report);
     if (status == GRAZE_OK)
         status = picture_render(&result, scene, &settings, &picture, &unconverged, report);
     if (status == GRAZE_OK)
@@ -170,7 +182,7 @@ int main(int argc, char **argv) {
     option table[GPICT_OPTION_COUNT + RENDER_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "View", 0, 0, NULL, NULL},
         {"-vf", OPTION_CUSTOM, &o.view, "FILE", "the view of a view file or picture", 0, 0, take_view_file, NULL},
-        {"-vt", OPTION_CUSTOM, &o.view, "T", "type, as in -vtv: v perspective, l parallel, c h a s", 0, 0,
+        {"-vt", OPTION_SUFFIX, &o.view, "T", "type, as in -vtv: v perspective, l parallel, c h a s", 0, 0,
          take_view_type, print_view_type},
         {"-vp", OPTION_REAL3, &o.view.point, "X Y Z", "view point", 0, 0, NULL, NULL},
         {"-vd", OPTION_REAL3, &o.view.direction, "X Y Z", "view direction", 0, 0, NULL, NULL},

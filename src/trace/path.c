@@ -394,7 +394,8 @@ static bool is_search(const path *p, graze_lobe lobe) {
     return lobe != GRAZE_LOBE_MIRROR && (!samples_lights(p->context) || p->context->scene->has_mirrors);
 }
 
-/* A rejected direction is drawn again; about one of two is kept, so that the end is never reached. */
+/* A rejected direction is drawn again, up to a hundred times. One of two is kept at least for roughnesses up to 1.2 or
+ * so, and the end is then never reached; of a roughness of 10, one of a hundred. */
 static graze_surface_sample draw_unweighted(path *p, const graze_surface *s, const double random[2]) {
     graze_surface_sample sample = graze_surface_sample_unweighted(s, random[0], random[1]);
     for (int i = 0; i < 100 && rgb_is_black(sample.weight); i++) {

@@ -372,6 +372,53 @@ static void test_defaults_are_readable(void **state) {
     end(&g);
 }
 
+static graze_status handle_letter(void *target, const char *suffix, int count, const char *const *words, int *used,
+                                  const graze_report *report) {
+    assert_int_equal(count, 0);
+    assert_null(words);
+    assert_int_equal(*used, 0);
+    if (!suffix[0] || suffix[1])
+        return report_error(report, NULL, "bad letter '%s'", suffix);
+    *(char *)target = suffix[0];
+    return GRAZE_OK;
+}
+
+static void print_letter(void *target, FILE *out) {
+    if (*(char *)target)
+        fprintf(out, "-c%c", *(char *)target);
+}
+
+/* Its letters stand at its name, and words behind it are let alone. */
+static void test_handled_suffix(void **state) {
+    (void)state;
+    fixture f;
+    char letter = 0, text[4096];
+    begin(&f);
+    add(&f, (option){.name = "-c",
+                     .kind = OPTION_SUFFIX,
+                     .target = &letter,
+                     .arguments = "X",
+                     .help = "letter",
+                     .handle = handle_letter,
+                     .print = print_letter});
+    assert_int_equal(RUN(&f, "-cl", "a.rad"), GRAZE_OK);
+    assert_int_equal(letter, 'l');
+    assert_int_equal(f.count, 1);
+    assert_int_equal(RUN(&f, "-c", "l"), GRAZE_INPUT_ERROR);
+    assert_int_equal(RUN(&f, "-cll"), GRAZE_INPUT_ERROR);
+    capture_output();
+    graze_status status = RUN(&f, "-help");
+    captured_output(text, sizeof text);
+    assert_int_equal(status, GRAZE_OK);
+    assert_non_null(strstr(text, "\n-cl\t\t\t\t# letter\n"));
+    capture_output();
+    status = RUN(&f, "--help");
+    captured_output(text, sizeof text);
+    assert_int_equal(status, GRAZE_OK);
+    assert_non_null(strstr(text, "\n  -cX                   letter [-cl]\n"));
+    end(&f);
+}
+
 static void test_help(void **state) {
     (void)state;
     fixture f;
@@ -578,22 +625,54 @@ static void test_print_word(void **state) {
     }
 }
 
-static void test_standard_error_report(void **state) {
-    (void)state;
+/* What a report to standard error writes there of an error with this text, behind "gtest: error: ". */
+static void write_error(char *written, size_t size, const char *text) {
     FILE *file = tmpfile();
     int saved = dup(STDERR_FILENO);
     dup2(fileno(file), STDERR_FILENO);
     graze_report report = options_standard_error_report("gtest");
-    report_error(&report, &(place){.file = "a.rad", .line = 1}, "bad");
-    report_warning(&report, NULL, "odd");
-    fflush(stderr);
+    report_error(&report, NULL, "%s", text);
+    report_warning(&report, &(place){.file = "a.rad", .line = 1}, "odd");
     dup2(saved, STDERR_FILENO);
     close(saved);
-    char text[256] = "";
     rewind(file);
-    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    written[fread(written, 1, size - 1, file)] = 0;
     fclose(file);
-    assert_string_equal(text, "gtest: error: a.rad:1: bad\ngtest: warning: odd\n");
+}
+
+static void test_standard_error_report(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *written;
+    } cases[] = {
+        {"bad", "bad"},
+        {"T\xc3\xbcr \xe2\x80\x93 \xf0\x9d\x94\xbc", "T\xc3\xbcr \xe2\x80\x93 \xf0\x9d\x94\xbc"},
+        {"\033[31m\a\b\r\n\t\177 \x1f", "\\x1B[31m\\x07\\x08\\x0D\\x0A\\x09\\x7F \\x1F"},
+        {"\x9b\x31m \xc2\x9b\x31m \xc2\xa0", "\\x9B\x31m \\xC2\\x9B\x31m \xc2\xa0"},
+        {"T\xfcr \xc3", "T\\xFCr \\xC3"},
+        {"\xe2\x80 \xe0\x82\x9b \xf0\x80\x82\x9b \xf5\x80\x80\x80 \xc1\x9b",
+         "\\xE2\\x80 \\xE0\\x82\\x9B \\xF0\\x80\\x82\\x9B \\xF5\\x80\\x80\\x80 \\xC1\\x9B"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char written[512], expected[512];
+        write_error(written, sizeof written, cases[i].text);
+        snprintf(expected, sizeof expected, "gtest: error: %s\ngtest: warning: a.rad:1: odd\n", cases[i].written);
+        assert_string_equal(written, expected);
+    }
+}
+
+/* Longer than what is written at once. */
+static void test_long_standard_error_report(void **state) {
+    (void)state;
+    enum { LENGTH = 3000 };
+    char text[LENGTH + 1] = "", written[4 * LENGTH + 64], expected[sizeof written] = "gtest: error: ";
+    for (size_t i = 0; i < LENGTH; i++) {
+        text[i] = i % 7 ? (char)('a' + i % 26) : '\033';
+        strcat(expected, i % 7 ? (char[]){text[i], 0} : "\\x1B");
+    }
+    strcat(expected, "\ngtest: warning: a.rad:1: odd\n");
+    write_error(written, sizeof written, text);
+    assert_string_equal(written, expected);
 }
 
 int main(void) {
@@ -606,6 +685,7 @@ int main(void) {
         cmocka_unit_test(test_errors),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_defaults_are_readable),
+        cmocka_unit_test(test_handled_suffix),
         cmocka_unit_test(test_help),
         cmocka_unit_test(test_full_output),
         cmocka_unit_test(test_files_and_variables),
@@ -614,6 +694,7 @@ int main(void) {
         cmocka_unit_test(test_command_line),
         cmocka_unit_test(test_print_word),
         cmocka_unit_test(test_standard_error_report),
+        cmocka_unit_test(test_long_standard_error_report),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

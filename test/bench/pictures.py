@@ -1,8 +1,9 @@
 """Time for equal error: pictures by gpict and by Radiance's rtrace, side by side, over the scenes in scenes/bench.
 
 Run by `make bench BENCH=pictures`. Prints a table for each scene and writes time versus error to out/bench/pictures.svg and
-.png. References are computed once, in some minutes, and kept in build/bench-cache. RUNS (3) in the environment sets how many
-runs, SCENES which scenes (all).
+.png. References are computed once, in some minutes, and kept in build/bench-cache, by scene, view and settings, not by the
+program that computed them: after a change that gives gpict other pictures, not only sooner, remove that folder. RUNS (3) in the
+environment sets how many runs, SCENES which scenes (all).
 
 What is compared. Both programs answer for the ray through each pixel's centre, so that their pictures converge to the same
 numbers and the edges of objects, which only more rays in a pixel could smooth, say nothing. rpict and rtrace are one renderer;

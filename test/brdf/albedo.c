@@ -127,7 +127,7 @@ static void quadrature_over_directions(void **state) {
     (void)state;
     const double alphas[][2] = {{.3, .3}, {.5, .25}, {1, 2}};
     const double views[][2] = {{0, 0}, {40, 20}, {75, 90}, {87, 200}};
-    for (int model = 0; model < 4; ++model)
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model)
         for (int a = 0; a < 3; ++a)
             for (int i = 0; i < 4; ++i) {
                 const graze_brdf brdf = {(graze_brdf_model)model, alphas[a][0], alphas[a][1]};
@@ -156,7 +156,7 @@ static void ward_duer_next_to_the_horizon(void **state) {
 static void extreme_anisotropy(void **state) {
     (void)state;
     static const struct {
-        double alpha_x, alpha_y, cosine, azimuth, albedo[4];
+        double alpha_x, alpha_y, cosine, azimuth, albedo[GRAZE_BRDF_MODEL_COUNT];
     } cases[] = {
         {0.003, 8.3, 4e-39, 6, {1, 6.64866429144e+16, 2.24594230535e+36, 0.0089837692214}},
         {3.7, 3.7, 0.0004, 1.1, {0.995906157321, 0.809613225879, 51.2472559247, 0.0204988983037}},
@@ -171,7 +171,7 @@ static void extreme_anisotropy(void **state) {
     };
     uint64_t seed = 2;
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; ++i)
-        for (int model = 0; model < 4; ++model) {
+        for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
             const graze_brdf brdf = {(graze_brdf_model)model, cases[i].alpha_x, cases[i].alpha_y};
             graze_vec3 v = direction(cases[i].cosine, cases[i].azimuth);
             assert_near(graze_brdf_albedo(&brdf, v), cases[i].albedo[model], 1e-9);
@@ -390,7 +390,7 @@ static void every_view_has_an_albedo(void **state) {
     const double alphas[] = {GRAZE_ROUGHNESS_MIN, 1, GRAZE_ROUGHNESS_MAX};
     for (int i = 0; i < 6; ++i)
         for (int a = 0; a < 9; ++a)
-            for (int model = 0; model < 4; ++model) {
+            for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
                 const graze_brdf brdf = {(graze_brdf_model)model, alphas[a % 3], alphas[a / 3]};
                 double albedo = graze_brdf_albedo(&brdf, direction(cosines[i], 1));
                 assert_true(albedo >= 0 && albedo <= (model == GRAZE_BRDF_GMD ? 1 : DBL_MAX));
@@ -398,7 +398,7 @@ static void every_view_has_an_albedo(void **state) {
     /* Nothing where v is not above the surface, or no direction. */
     const graze_vec3 none[] = {{1, 0, 0},        {.6, 0, -.8},     {0, 0, NAN},       {NAN, 0, .8},   {0, NAN, .8},
                                {0, 0, INFINITY}, {INFINITY, 0, 1}, {0, -INFINITY, 1}, {0, 0, -5e-324}};
-    for (int model = 0; model < 4; ++model) {
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
         const graze_brdf brdf = {(graze_brdf_model)model, .1, .1};
         for (unsigned i = 0; i < sizeof none / sizeof *none; ++i) {
             assert_true(graze_brdf_albedo(&brdf, none[i]) == 0);
@@ -413,12 +413,12 @@ static void every_view_has_an_albedo(void **state) {
 static void growth_next_to_the_horizon(void **state) {
     (void)state;
     static const double alphas[][2] = {{1e-6, 10}, {10, 1e-6}, {1e-6, 1}, {.001, .5}, {.1, .1}, {1e-6, 1e-6}, {.3, .2}};
-    static const double azimuths[] = {0, 53, 90}, powers[4] = {0, .5, 1, 0};
+    static const double azimuths[] = {0, 53, 90}, powers[GRAZE_BRDF_MODEL_COUNT] = {0, .5, 1, 0};
     static const double steepest[][2] = {/* the length along the surface, and v.z */
                                          {1, 1e-29},      {1, 1e-35},   {1, 1e-150},      {1, 1e-300},
                                          {1, 1e-310},     {1, 5e-324},  {5, 5e-324},      {1e100, 1e-9},
                                          {1e300, 1e-300}, {DBL_MAX, 1}, {1e-280, 1e-320}, {DBL_MAX, 5e-324}};
-    for (int model = 0; model < 4; ++model)
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model)
         for (int i = 0; i < 7 * 3; ++i) {
             const graze_brdf brdf = {(graze_brdf_model)model, alphas[i % 7][0], alphas[i % 7][1]};
             double azimuth = azimuths[i / 7] * pi / 180, exact = reference(model, &brdf, direction(1e-25, azimuth));
@@ -437,7 +437,7 @@ static void any_length(void **state) {
     (void)state;
     static const graze_vec3 views[] = {{1, 1, 1}, {3, -4, 12}, {-1, 0, 1}, {0, 7, 2}, {0, 0, 1}, {2, 1, 3}};
     static const double sizes[] = {0x1p-1074, 0x1p-1073, 0x1p-1060, 0x1p-1022, 0x1p-600, 0x1p-1, 0x1p600, 0x1p1020};
-    for (int model = 0; model < 4; ++model)
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model)
         for (int i = 0; i < 6; ++i) {
             const graze_brdf brdf = {(graze_brdf_model)model, .1, i % 2 ? .1 : 1.5};
             graze_vec3 v = views[i];

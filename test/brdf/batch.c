@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "brdf/common.h"
-#include "brdf/kernels.h"
+#include "brdf/kernel_tables.h"
 #include "graze/brdf_batch.h"
 
 enum { COUNT = 1000, FUNCTIONS = 5, GUARD = 8 };
@@ -94,8 +94,8 @@ static brdf_float_batch_function *const public_float_batch[FUNCTIONS] = {
 static void check_all(const graze_brdf *brdf) {
     static double expected[COUNT], result[COUNT];
     static float float_expected[COUNT], float_result[COUNT];
-    const brdf_kernels *tables[BRDF_KERNELS_MOST];
-    int count = brdf_kernels_available(tables);
+    const brdf_kernels *tables[KERNEL_TABLES_MOST];
+    int count = kernel_tables_available(tables);
     for (int function = 0; function < FUNCTIONS; ++function) {
         for (int i = 0; i < COUNT; ++i) {
             expected[i] = public_scalar[function](brdf, vector_at(0, i), vector_at(3, i));
@@ -133,7 +133,7 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
 static void odd_pairs_too(void **state) {
     (void)state;
     for (int a = 0; a < ROUGHNESSES * ROUGHNESSES; ++a)
-        for (int model = 0; model < 4; ++model) {
+        for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
             const graze_brdf brdf = {(graze_brdf_model)model, roughnesses[a / ROUGHNESSES],
                                      roughnesses[a % ROUGHNESSES]};
             draw_odd_pairs((uint64_t)(a + 100));
@@ -144,9 +144,9 @@ static void odd_pairs_too(void **state) {
 /* No more than asked for is written, wherever arrays begin. */
 static void every_length_and_alignment(void **state) {
     (void)state;
-    const brdf_kernels *tables[BRDF_KERNELS_MOST];
-    int count = brdf_kernels_available(tables);
-    for (int model = 0; model < 4; ++model) {
+    const brdf_kernels *tables[KERNEL_TABLES_MOST];
+    int count = kernel_tables_available(tables);
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
         const graze_brdf brdf = {(graze_brdf_model)model, .2, .3};
         draw_pairs(&brdf, 7, 1e-20);
         for (int function = 0; function < FUNCTIONS; ++function) {
@@ -193,7 +193,7 @@ static void every_length_and_alignment(void **state) {
 static void float_densities_and_weights_are_rounded_double_ones(void **state) {
     (void)state;
     static float result[COUNT];
-    for (int model = 0; model < 4; ++model) {
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
         const graze_brdf brdf = {(graze_brdf_model)model, 1e-6, .1};
         draw_pairs(&brdf, (uint64_t)model, 1e-20);
         for (int function = 1; function < FUNCTIONS; ++function) {
@@ -217,7 +217,7 @@ static void exchanges_leave_every_bit(void **state) {
     (void)state;
     static float one[COUNT], other[COUNT];
     for (int a = 0; a < ROUGHNESSES * ROUGHNESSES; ++a)
-        for (int model = 0; model < 4; ++model) {
+        for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
             const graze_brdf brdf = {(graze_brdf_model)model, roughnesses[a / ROUGHNESSES],
                                      roughnesses[a % ROUGHNESSES]};
             const graze_brdf turned = {brdf.model, brdf.alpha_y, brdf.alpha_x};

@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "brdf/kernels.h"
+#include "brdf/kernel_tables.h"
 
 enum { FEATURES = 5, PROCESSORS = 1 << FEATURES };
 
@@ -17,7 +17,7 @@ static brdf_processor processor_of(int bits) {
 /* A table is for processors that have all it needs, and no other. */
 static void a_table_follows_from_the_features(void **state) {
     (void)state;
-    int chosen[BRDF_KERNELS_MOST] = {0};
+    int chosen[KERNEL_TABLES_MOST] = {0};
     for (int bits = 0; bits < PROCESSORS; ++bits) {
         const brdf_kernels *kernels = brdf_kernels_for(processor_of(bits));
 #ifdef BRDF_X86_64
@@ -40,9 +40,9 @@ static void a_table_follows_from_the_features(void **state) {
 /* From the one that runs everywhere to the best one, and nothing is written behind that. */
 static void available_tables_end_with_the_best(void **state) {
     (void)state;
-    const brdf_kernels *tables[BRDF_KERNELS_MOST + 1] = {NULL};
-    int count = brdf_kernels_available(tables);
-    assert_true(count >= 1 && count <= BRDF_KERNELS_MOST);
+    const brdf_kernels *tables[KERNEL_TABLES_MOST + 1] = {NULL};
+    int count = kernel_tables_available(tables);
+    assert_true(count >= 1 && count <= KERNEL_TABLES_MOST);
     assert_ptr_equal(tables[0], &brdf_kernels_baseline);
     assert_ptr_equal(tables[count - 1], brdf_kernels_best());
     assert_null(tables[count]);

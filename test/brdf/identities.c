@@ -64,7 +64,7 @@ static void values_by_hand(void **state) {
     graze_vec3 l = {.8, 0, .6}, v = {0, .6, .8};
     double x = .8 / .5, y = .6 / .25, e = exp(-(x * x + y * y) / (1.4 * 1.4)) / (pi * .5 * .25);
     const double expected[] = {e * (.64 + .36 + 1.96) / pow(1.4, 4), e / 4 / sqrt(.48), e / 4 / .48, e / 4 / .8};
-    for (int model = 0; model < 4; ++model) {
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
         const graze_brdf brdf = {(graze_brdf_model)model, .5, .25};
         assert_near(graze_brdf_value(&brdf, l, v), expected[model], 1e-14);
     }

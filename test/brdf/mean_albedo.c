@@ -33,7 +33,7 @@ static void definition(void **state) {
     static const double alphas[][2] = {{1e-6, 1e-6}, {.01, .01}, {.1, .1}, {.5, .5}, {2, 2},
                                        {10, 10},     {.2, .3},   {.5, .4}, {.6, 1},  {3, 2}};
     for (int i = 0; i < (is_short_run() ? 7 : 10); ++i)
-        for (int model = 0; model < 4; ++model) {
+        for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
             const graze_brdf brdf = {(graze_brdf_model)model, alphas[i][0], alphas[i][1]};
             assert_near(graze_brdf_mean_albedo(&brdf), mean_of_albedos(&brdf, i < 6 ? 1 : 12), 1e-9);
         }
@@ -83,7 +83,7 @@ static void limits(void **state) {
     (void)state;
     const double of_mirror[] = {1, 2. / 3, 1, 2. / 3};
     uint64_t seed = 7;
-    for (int model = 0; model < 4; ++model) {
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
         const graze_brdf mirror = {(graze_brdf_model)model, 1e-6, 1e-6};
         assert_near(graze_brdf_mean_albedo(&mirror), of_mirror[model], 1e-6);
         for (int i = 0; i < 100; ++i) {

@@ -9,7 +9,7 @@
 #include <mpfr.h>
 
 #include "brdf/common.h"
-#include "brdf/kernels.h"
+#include "brdf/kernel_tables.h"
 #include "brdf/sample_kernels.h"
 
 /* Sums of the numbers here, from 1 down to a square of the least component, have so many bits. */
@@ -179,8 +179,8 @@ static void what_is_no_direction_gives_the_null_vector(void **state) {
         {{large / 4, -large / 2, large / 4}, false},
         {{-large / 4, large / 4, below - large / 2}, true},
     };
-    const brdf_kernels *sets[BRDF_KERNELS_MOST];
-    int count = brdf_kernels_available(sets);
+    const brdf_kernels *sets[KERNEL_TABLES_MOST];
+    int count = kernel_tables_available(sets);
     for (unsigned i = 0; i < sizeof views / sizeof *views; ++i)
         for (int k = 0; k < 4 * count; ++k) {
             const graze_brdf brdf = {(graze_brdf_model)(k % 4), .1, .2};

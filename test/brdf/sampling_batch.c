@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "brdf/common.h"
-#include "brdf/kernels.h"
+#include "brdf/kernel_tables.h"
 #include "graze/brdf_batch.h"
 
 enum { MOST = 300, ARGUMENTS = 6, RESULTS = 5 };
@@ -114,8 +114,8 @@ static void check_pieces(const brdf_kernels *set, const graze_brdf *brdf, const 
 
 static void every_instruction_set_gives_the_same_bits(void **state) {
     (void)state;
-    const brdf_kernels *sets[BRDF_KERNELS_MOST];
-    int count = brdf_kernels_available(sets);
+    const brdf_kernels *sets[KERNEL_TABLES_MOST];
+    int count = kernel_tables_available(sets);
     uint64_t seed = 31;
     int accepted = 0, rejected = 0;
     for (int round = 0; round < 200; ++round) {

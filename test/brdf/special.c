@@ -10,7 +10,7 @@
 
 #include "brdf/albedo.h"
 #include "brdf/common.h"
-#include "brdf/kernels.h"
+#include "brdf/kernel_tables.h"
 #include "graze/brdf_batch.h"
 
 static const double roughnesses[] = {GRAZE_ROUGHNESS_MIN, .003, .1, 1, GRAZE_ROUGHNESS_MAX};
@@ -84,7 +84,7 @@ static void special_vectors(void **state) {
 
 static void not_numbers_reflect_nothing(void **state) {
     (void)state;
-    for (int model = 0; model < 4; ++model) {
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model) {
         const graze_brdf brdf = {(graze_brdf_model)model, .1, .2};
         for (int k = 0; k < 6; ++k) {
             double c[6] = {.6, 0, .8, 0, .6, .8};
@@ -198,8 +198,8 @@ static void check_table(const brdf_kernels *set, const graze_brdf *brdf, graze_v
 /* Exponents far beyond what any factor makes up for, next to the horizon, where powers of two are taken out. */
 static void nothing_is_minus_zero(void **state) {
     (void)state;
-    const brdf_kernels *sets[BRDF_KERNELS_MOST];
-    int count = brdf_kernels_available(sets);
+    const brdf_kernels *sets[KERNEL_TABLES_MOST];
+    int count = kernel_tables_available(sets);
     uint64_t seed = 3;
     for (int i = 0; i < 20000; ++i) {
         const graze_brdf brdf = {(graze_brdf_model)(i % 4), draw_power(&seed, 1e-6, 1), draw_power(&seed, 1e-6, 1)};
@@ -211,7 +211,7 @@ static void nothing_is_minus_zero(void **state) {
     }
     const graze_vec3 l = {-0.96677504209406828, -0.25560772696107897, 0.0032722930496730399};
     const graze_vec3 v = {-0.73330226849876035, 0.67990277467780047, 3.8395072084431578e-67};
-    for (int model = 0; model < 4; ++model)
+    for (int model = 0; model < GRAZE_BRDF_MODEL_COUNT; ++model)
         for (int k = 0; k < count; ++k)
             check_table(sets[k], &(graze_brdf){(graze_brdf_model)model, 1e-6, 1e-6}, l, v);
 }
@@ -237,8 +237,9 @@ static void lobes_out_of_range(void **state) {
     const double given[] = {0, -1, 9e-7, 1e-300, NAN, -HUGE_VAL, 11, 1e100, DBL_MAX, HUGE_VAL, .2};
     const double nearest[] = {1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 10, 10, 10, 10, .2};
     enum { COUNT = sizeof given / sizeof *given, MODELS = 6 };
-    const graze_brdf_model models[MODELS] = {GRAZE_BRDF_GMD,          GRAZE_BRDF_WARD,       GRAZE_BRDF_WARD_DUER,
-                                             GRAZE_BRDF_WARD_NEUMANN, (graze_brdf_model)100, (graze_brdf_model)4};
+    const graze_brdf_model models[MODELS] = {GRAZE_BRDF_GMD,        GRAZE_BRDF_WARD,
+                                             GRAZE_BRDF_WARD_DUER,  GRAZE_BRDF_WARD_NEUMANN,
+                                             (graze_brdf_model)100, (graze_brdf_model)GRAZE_BRDF_MODEL_COUNT};
     uint64_t seed = 3;
     for (int i = 0; i < COUNT * COUNT; ++i) {
         const graze_brdf brdf = {models[i % MODELS], given[i / COUNT], given[i % COUNT]};
@@ -300,7 +301,8 @@ static void lobes_out_of_range(void **state) {
 /* Below the entry points, too: no function of a table, nor an albedo's, is at a loss for what is no model. */
 static void no_model_is_ward_neumann_everywhere(void **state) {
     (void)state;
-    const graze_brdf brdf = {(graze_brdf_model)4, .2, .3}, same = {GRAZE_BRDF_WARD_NEUMANN, .2, .3};
+    const graze_brdf brdf = {(graze_brdf_model)GRAZE_BRDF_MODEL_COUNT, .2, .3},
+                     same = {GRAZE_BRDF_WARD_NEUMANN, .2, .3};
     graze_vec3 l = from_degrees(50, 10), v = from_degrees(60, 170);
     const graze_vec3_arrays ls = {&l.x, &l.y, &l.z}, vs = {&v.x, &v.y, &v.z};
     float f[6] = {(float)l.x, (float)l.y, (float)l.z, (float)v.x, (float)v.y, (float)v.z}, one_float, other_float;
@@ -308,8 +310,8 @@ static void no_model_is_ward_neumann_everywhere(void **state) {
     double s = .4, one[5], other[5];
     const graze_brdf_sample_arrays to_one = {one, one + 1, one + 2, one + 3, one + 4};
     const graze_brdf_sample_arrays to_other = {other, other + 1, other + 2, other + 3, other + 4};
-    const brdf_kernels *tables[BRDF_KERNELS_MOST];
-    for (int i = 0, count = brdf_kernels_available(tables); i < count; ++i) {
+    const brdf_kernels *tables[KERNEL_TABLES_MOST];
+    for (int i = 0, count = kernel_tables_available(tables); i < count; ++i) {
         const brdf_kernels *k = tables[i];
         brdf_scalar_function *const scalars[] = {k->value, k->ward_weight, k->pair_weight};
         brdf_batch_function *const batches[] = {k->value_batch, k->ward_weight_batch, k->pair_weight_batch};

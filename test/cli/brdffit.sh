@@ -61,6 +61,10 @@ result $? "... but not with -w-"
 check "gold becomes a metal2" cmp gold.rad <(printf 'void metal2 brushed\n4 1 0 0 .\n0\n6 0.8 0.5 0.2 0.7 0.2 0.1\n')
 "$brdffit" -m gmd --anisotropic --output rad red.csv 2>&1 | grep -v '^#' >red.rad
 check "red plastic becomes a plastic2" cmp red.rad <(printf 'void plastic2 fitted\n4 1 0 0 .\n0\n6 0.6 0.1 0.1 0.05 0.2 0.1\n')
+for angle in 65 70 75 80 85; do
+    "$brdffit" -m gmd --total-reflectance .175 --max-angle $angle --output rad "$GRAZE_ROOT/figures/linoleum.csv"
+done 2>&1 | grep -c '^void plastic2 ' >grey
+check "data without colour become a plastic2, whatever rounding says" test "$(cat grey)" = 5
 echo "0 0 0 0 0 1" | "$BIN/brdfeval" -M red.rad fitted >out 2>&1
 check "brdfeval takes the material" "$BIN/brdfeval" -M red.rad fitted -q mean
 "$brdffit" -m gmd --anisotropic --roughness separate --output json gold.csv >separate.json
@@ -88,9 +92,27 @@ check "... and no lobe" grep -qE "rs is (at its lower bound|known to worse|undet
 # Pictures.
 fails "the plot's suffix" 1 "'fit.jpg' ends in none of .svg .png .gp" "" "$brdffit" --plot fit.jpg plane.csv
 check "gnuplot's script" "$brdffit" --plot "fit.gp" plane.csv
-check "... a panel for each of five angles" test "$(grep -c '^plot ' fit.gp)" = 5
+check "... a panel for each of five angles" test "$(grep -c '^plot \$' fit.gp)" = 5
 check "... with all models" grep -q "title 'ward-neumann'" fit.gp
+check "... each with dashes of its own" test "$(sed -n '/^plot NaN/,$p' fit.gp | grep -o 'dashtype.* title' | sort -u | wc -l)" = 4
+check "... named once, in the last plot, below the panels" test "$(grep -c "with .* title '" fit.gp) $(sed -n '/^plot NaN/,$p' fit.gp | grep -c "with .* title '")" = "5 5"
 check "... the measured points" test "$(sed -n '/^.measured3 /,/^END/p' fit.gp | grep -c '^-*[0-9]')" = 41
+# range AXIS: of the first panel, from and to.
+range() { sed -n "s/^set $1range \[\(.*\):\(.*\)\]\$/\1 \2/p" gap.gp | head -n 1; }
+# A peak at 30 degrees that no measurement hits: ALPHA.
+gap() {
+    "$BIN/brdfeval" -a "$1" -rs .05 -rd .01 --grid tl=30,pl=0,tv=-80:80:10,pv=180 | awk -F, '$3 != 30' >gap.csv
+    "$brdffit" -w- -m gmd --plot gap.gp gap.csv >gap.out
+    highest=$(awk -F, 'NR > 1 && $5 > most { most = $5 } END { print most }' gap.csv)
+}
+shown() { range y | awk -v highest="$highest" -v low="$1" -v high="$2" '{ exit !($1 == 0 && $2 > low * highest && $2 < high * highest) }'; }
+gap .1
+check "a fit's peak between two measurements is seen" shown 1.9 2.1
+gap .06
+check "... if it is not above them by more than four times" shown 4.3999 4.4001
+check "... and views where there is little to see are not" test "$(range x)" = "$(sed -n '/^.fit0_0 /,/^END/p' gap.gp |
+    awk -v most="$(awk -v highest="$highest" 'BEGIN { print 4 * highest }')" '$2 + 0 > .05 * most { last = $1; first = first ? first : $1 }
+        END { print first - 10, last + 10 }')"
 fails "no plane of incidence" 1 "no three measurements share a plane" \
     'theta_i,phi_i,theta_o,phi_o,f\n30,0,10,90,.1\n30,0,30,90,.1\n30,0,50,90,.1\n30,0,70,90,.1\n' \
     "$brdffit" -w- -m gmd --plot fit.gp -
@@ -119,11 +141,30 @@ printf 'theta_i,theta_o,f\n30,40,\000\n' >zero.csv
 fails "no text" 1 "zero.csv: is neither text nor a MERL table" "" "$brdffit" zero.csv
 fails "values beyond all measure" 1 "standard input:2: a value of 1e+200 is out of range" \
     'theta_i,theta_o,f\n30,40,1e200\n' "$brdffit" -
+for value in 1e300 1e100 1e99; do
+    sed "5s/,[^,]*\$/,$value/" plane.csv >huge.csv
+    fails "... $value" 1 "huge.csv:5: a value of ${value/e/e+} is out of range: a BRDF is at most 1e+50" "" "$brdffit" huge.csv
+done
+# All that a fit is given is as large as can be, or as small.
+awk -F, -v OFS=, 'NR == 1 { print $0, "weight" } NR > 1 { $5 = "1e50"; print $0, NR % 2 ? "1e50" : "1e-50" }' plane.csv >huge.csv
+for loss in cosine plain log; do
+    "$brdffit" -w- --loss $loss --anisotropic --output json huge.csv >huge.json 2>err
+    check "the largest values and weights that are read have a JSON, --loss $loss" "${PYTHON:-python3}" -c '
+import json
+def refuse(word): raise ValueError(word)
+found = json.load(open("huge.json"), parse_constant=refuse)
+assert all(m["residual_20"] > 1e100 and m["rms_20"] > 1e49 for m in found["models"])'
+done
+fails "angles beyond all measure" 1 "standard input:2:4: expected a polar angle of at most 180 degrees in size, not '1e9'" \
+    'theta_i,theta_o,f\n30,1e9,1\n' "$brdffit" -
+fails "a header alone" 1 "standard input: there are no lines of data" 'theta_i,theta_o,f\n' "$brdffit" -
 fails "standard input twice" 1 "only one of the files" "" "$brdffit" - -
 fails "bad numbers have a place" 1 "standard input:2:4: expected a finite number, the theta_o, not 'x'" \
     'theta_i,theta_o,f\n30,x,1\n' "$brdffit" -
 fails "too few data" 1 "too few" 'theta_i,theta_o,f\n30,30,1\n30,40,1\n' "$brdffit" -
 fails "no such model" 1 "expected one of gmd ward ward-duer ward-neumann all" "" "$brdffit" -m phong plane.csv
+fails "... which is said before files are opened" 1 "there is no 'phong'" "" "$brdffit" -m phong none.csv
+fails "bytes that would control a terminal are shown as numbers" 1 "there is no '\\x1B[31mward'" "" "$brdffit" -m $'\033[31mward' plane.csv
 fails "no such loss" 1 "--loss" "" "$brdffit" --loss l1 plane.csv
 fails "no such output" 1 "--output" "" "$brdffit" --output xml plane.csv
 fails "both isotropic and not" 1 "exclude each other" "" "$brdffit" --isotropic --anisotropic plane.csv

@@ -74,6 +74,14 @@ check "make install" make_quietly install
 installed_files >"$work/files"
 check "everything is where it belongs" has bin/gtrace bin/gpict bin/brdfeval bin/brdffit lib/libgraze.a lib/libgraze.so \
     lib/libgraze.so.0 lib/pkgconfig/graze.pc lib/graze/oiio.so include/graze/graze.h share/doc/graze/LICENSE
+figures_complete() {
+    local picture pictures
+    pictures=$(grep -o '([a-z0-9]*\.png)' man/figures/README.md | tr -d '()')
+    [ -n "$pictures" ] && has share/doc/graze/figures/README.md || return 1
+    for picture in $pictures; do has "share/doc/graze/figures/$picture" || return 1; done
+}
+check "the page of figures has all its pictures" figures_complete
+check "... and is where the manual says" grep -qF 'share/doc/graze/figures/README.md' "$root/share/man/man1/gpict.1"
 for tool in "$BIN"/*; do
     check "$(basename "$tool") has a manual page" has "share/man/man1/$(basename "$tool").1"
 done

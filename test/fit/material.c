@@ -119,7 +119,24 @@ static void choice(void **state) {
     assert_true(!m.metal && fabs(m.spec - 1) < 1e-6 && isfinite(m.colour.r));
 }
 
+/* What noise and rounding leave of colour decides nothing. */
+static void grey_is_plastic(void **state) {
+    (void)state;
+    for (int i = 1; i < 2000; i++) {
+        double total = .175 + i * 1e-7, specular = total * i / 2000;
+        const double rs[] = {specular, specular, specular};
+        const double rd[] = {total - specular, total - specular, total - specular};
+        assert_false(material_of(rs, rd).metal);
+    }
+    /* Less than 1% from grey, though just as a metal2 would have it; and more. */
+    const double hardly[] = {.05, .0501, .0499}, hardly_rest[] = {.1, .1002, .0998};
+    assert_false(material_of(hardly, hardly_rest).metal);
+    const double silver[] = {.9 * .97, .9 * .96, .9 * .92}, silver_rest[] = {.1 * .97, .1 * .96, .1 * .92};
+    assert_true(material_of(silver, silver_rest).metal);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds), cmocka_unit_test(colours), cmocka_unit_test(choice)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds), cmocka_unit_test(colours), cmocka_unit_test(choice),
+                                       cmocka_unit_test(grey_is_plastic)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

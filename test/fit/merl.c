@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
+#include "fit/measured_text.h"
 #include "fit/reflectance.h"
-#include "fit/written_file.h"
 
 enum { HALVES = 90, DIFFERENCES = 90, AZIMUTHS = 180, CELLS = HALVES * DIFFERENCES * AZIMUTHS, HEADER = 12 };
 #define NOISE .004

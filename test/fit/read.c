@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "fit/written_file.h"
+#include "fit/measured_text.h"
 
 static const double pi = 3.14159265358979323846;
 static const fit_read_options plain = {0};
@@ -126,7 +126,8 @@ static void unlikely_units(void **state) {
     assert_non_null(strstr(messages, "--angles radians"));
     fit_measurements_free(&m);
     const fit_read_options radians = {.conventions = {.unit = FIT_RADIANS}};
-    assert_int_equal(read_text(&m, "theta_i,phi_i,theta_o,phi_o,f\n1,.1,20,3,.25\n", &radians), GRAZE_OK);
+    assert_int_equal(read_text(&m, "theta_i,phi_i,theta_o,phi_o,f\n1,.1,20,3,.25\n", &radians), GRAZE_INPUT_ERROR);
+    assert_non_null(strstr(messages, ":2:6: expected a polar angle of at most pi"));
     assert_non_null(strstr(messages, "--angles degrees"));
     fit_measurements_free(&m);
 }
@@ -187,6 +188,11 @@ static void alta(void **state) {
     assert_true(is_direction(m.pairs[0].l, .5 * 180 / pi, .25 * 180 / pi + 180));
     assert_true(is_direction(m.pairs[1].l, .4 * 180 / pi, .3 * 180 / pi));
     assert_true(is_direction(m.pairs[1].v, .4 * 180 / pi, .3 * 180 / pi));
+    fit_measurements_free(&m);
+    /* Angles may be degrees if that is told. */
+    const fit_read_options degrees = {.conventions = {.unit = FIT_DEGREES}};
+    assert_int_equal(read_text(&m, "#DIM 4 1\n#PARAM_IN RUSIN_TH_PH_TD_PD\n40 30 0 0 2\n", &degrees), GRAZE_OK);
+    assert_true(is_direction(m.pairs[0].v, 40, 30) && is_direction(m.pairs[0].l, 40, 30));
     fit_measurements_free(&m);
     /* In the plane of the half vector, angles add. */
     assert_int_equal(read_text(&m, "#DIM 3 1\n#PARAM_IN RUSIN_TH_TD_PD\n.3 .2 0 1\n", &plain), GRAZE_OK);
@@ -279,7 +285,6 @@ static void malformed(void **state) {
         {"theta_i,phi_i,phi_o,f\n1,2,3,4\n", "do not tell two directions", FIT_FORMAT_ANY},
         {"theta_i,theta_o,theta_l,f\n1,2,3,4\n", "tells what an earlier one does", FIT_FORMAT_ANY},
         {"theta_i,theta_o\n1,2\n", "there are no values", FIT_FORMAT_ANY},
-        {"theta_i,theta_o,f\n", "no measurement of two directions", FIT_FORMAT_ANY},
         {"theta_i,theta_o,f\n100,10,1\n", "no measurement of two directions", FIT_FORMAT_ANY},
         {"theta_i,theta_o,f\n1,2\n", ":2:4: the line ends where the f is expected", FIT_FORMAT_ANY},
         {"theta_i,theta_o,f\n1,2,3,4\n", ":2:7: expected the line's end, not '4'", FIT_FORMAT_ANY},
@@ -296,7 +301,21 @@ static void malformed(void **state) {
         {"1\nblue\n", ":2:1: expected a wavelength, not 'blue'", FIT_FORMAT_ANY},
         {"1\n400\n.1 .2 .3\n", ":3:9: the line ends where the scattered azimuth", FIT_FORMAT_ANY},
         {"1\n400\n.1 .2 .3 .4 .5 .6\n", ":3:16: expected the line's end", FIT_FORMAT_ANY},
-        {"1\n400\n", "no measurement of two directions", FIT_FORMAT_ANY},
+        {"1\n400\n", "there are no lines of data", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f\n", "there are no lines of data", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f\r30,40,1\r", "there are no lines of data", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f\n1e9,2,1\n", ":2:1: expected a polar angle of at most 180 degrees", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f\n1,-181,1\n", ":2:3: expected a polar angle of at most 180 degrees", FIT_FORMAT_ANY},
+        {"theta_i,phi_i,theta_o,phi_o,f\n1,2,3,361,1\n",
+         ":2:7: expected an azimuth of at most 360 degrees in size, not '361'", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,dphi,f\n1,2,-361,1\n", ":2:5: expected an azimuth", FIT_FORMAT_ANY},
+        {"1\n400\n3.15 .2 .3 .4 .5\n", ":3:1: expected a polar angle of at most pi radians", FIT_FORMAT_ANY},
+        {"1\n400\n.1 .2 .3 6.3 .5\n", ":3:10: expected an azimuth of at most 2 pi radians", FIT_FORMAT_ANY},
+        {"#DIM 3 1\n#PARAM_IN RUSIN_TH_TD_PD\n.3 .2 -7 1\n", ":3:7: expected an azimuth", FIT_FORMAT_ANY},
+        {"#DIM 3 1\n#PARAM_IN ISOTROPIC_TV_TL_DPHI\n.3 4 0 1\n", ":3:4: expected a polar", FIT_FORMAT_ANY},
+        {"#intheta 200\n", ":1:10: expected a polar angle", FIT_FORMAT_ANY},
+        {"#incident_angle 30 400\n", ":1:20: expected an azimuth", FIT_FORMAT_ANY},
+        {"#intheta 30\n#inphi 0\n1 -400 3\n", ":3:3: expected an azimuth", FIT_FORMAT_ANY},
         {"", "the file ends before its data", FIT_FORMAT_CORNELL},
         {"#DIM 3 1\n#PARAM_IN COS_TH\n1 1\n", ":2:11: expected SPHERICAL", FIT_FORMAT_ANY},
         {"#DIM 3 1\n#PARAM_IN CARTESIAN\n1 1\n", "has 6 inputs, but #DIM says 3", FIT_FORMAT_ANY},
@@ -316,16 +335,17 @@ static void malformed(void **state) {
         {"#intheta 30\n#inphi 0\n1 2 3 4\n", ":3:7: expected the line's end", FIT_FORMAT_ANY},
         {"#DIM 3 1\n#PARAM_IN RUSIN_TH_TD_PD\n#DIM 3 2\n", ":3: a second #DIM", FIT_FORMAT_ANY},
         {"theta_i", "is no MERL table", FIT_FORMAT_MERL},
-        {"theta_i,theta_o,f\n1,2,-1e101\n", ":2: a value of -1e+101 is out of range", FIT_FORMAT_ANY},
-        {"theta_i,theta_o,f,weight\n1,2,3,1e101\n", ":2: a weight of 1e+101 is out of range", FIT_FORMAT_ANY},
-        {"theta_i,theta_o,f,weight\n1,2,3,1e-101\n", ":2: a weight of 1e-101 is out of range", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f\n1,2,-1.01e50\n", ":2: a value of -1.01e+50 is out of range: a BRDF is at most 1e+50",
+         FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f,weight\n1,2,3,1e51\n", ":2: a weight of 1e+51 is out of range", FIT_FORMAT_ANY},
+        {"theta_i,theta_o,f,weight\n1,2,3,1e-51\n", ":2: a weight of 1e-51 is out of range", FIT_FORMAT_ANY},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         fit_measurements m = {0};
         const fit_read_options o = {.conventions = {.format = cases[i].format}};
         graze_status status = read_text(&m, cases[i].text, &o);
         fit_measurements_free(&m);
-        if (status != GRAZE_INPUT_ERROR || !strstr(messages, cases[i].message) || !strstr(messages, written_name))
+        if (status != GRAZE_INPUT_ERROR || !strstr(messages, cases[i].message) || !strstr(messages, measured_name))
             fail_msg("case %zu, '%s': status %d, %s", i, cases[i].text, (int)status, messages);
     }
 }

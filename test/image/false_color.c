@@ -245,6 +245,35 @@ static void luminances_are_179_times_brightness(void **state) {
     image_destroy(picture);
 }
 
+/* A green beyond the primaries, 100.25 cd/m2 of chromaticity (.17, .75): its luminance is there only with its negative
+ * red and blue. */
+static void luminances_count_negative_channels(void **state) {
+    (void)state;
+    static const char header[] = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
+    static const unsigned char xyze[4] = {45, 200, 21, 135};
+    unsigned char bytes[sizeof header + 3];
+    memcpy(bytes, header, sizeof header - 1);
+    memcpy(bytes + sizeof header - 1, xyze, 4);
+    char directory[PATH_MAX], path[PATH_MAX + 64];
+    make_directory(directory);
+    write_bytes(path_in(path, directory, "green.hdr"), bytes, sizeof bytes);
+    image *picture = read_image(path);
+    unlink(path);
+    remove_directory(directory);
+    assert_true(picture->channels[0][0] < 0 && picture->channels[2][0] < 0);
+    image_values values;
+    assert_true(image_values_of(&values, picture, IMAGE_LUMINOUS_EFFICACY));
+    assert_close(values.values[0], 100.25, 0.01);
+    image_values_free(&values);
+    /* What is negative in sum is nothing. */
+    set_gray(picture, 0, -INFINITY);
+    picture->channels[1][0] = 1;
+    assert_true(image_values_of(&values, picture, IMAGE_LUMINOUS_EFFICACY));
+    assert_true(values.values[0] == 0);
+    image_values_free(&values);
+    image_destroy(picture);
+}
+
 /* One pixel in two hundred far off does not count. */
 static void stray_pixels_do_not_set_the_scale(void **state) {
     (void)state;
@@ -360,6 +389,7 @@ int main(void) {
         cmocka_unit_test(legends_have_the_size_wanted),
         cmocka_unit_test(differences_are_relative),
         cmocka_unit_test(luminances_are_179_times_brightness),
+        cmocka_unit_test(luminances_count_negative_channels),
         cmocka_unit_test(stray_pixels_do_not_set_the_scale),
         cmocka_unit_test(extrema_are_marked),
         cmocka_unit_test(odd_pictures_are_drawn),

@@ -103,6 +103,8 @@ static void suffixes_are_checked(void **state) {
                    image_check_writable("a.xyz", &c.report));
     assert_non_null(strstr(c.text, ".png"));
     EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "no format is known for .null", image_check_writable("a.null", &c.report));
+    /* OpenImageIO's own writer does not survive large ones. */
+    EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "no format is known for .gif", image_check_writable("a.gif", &c.report));
     EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "has no suffix", image_check_writable("picture", &c.report));
     EXPECT_FAILURE(&c, GRAZE_INPUT_ERROR, "has no suffix", image_check_writable("dir.png/.png", &c.report));
     image *picture = make_picture(2, 2);
@@ -111,7 +113,7 @@ static void suffixes_are_checked(void **state) {
 }
 
 static const char *const each_format[] = {"a.hdr", "a.exr", "a.png", "a.tif", "a.jpg", "a.bmp",
-                                          "a.ppm", "a.tga", "a.sgi", "a.gif", "a.iff", "a.jp2"};
+                                          "a.ppm", "a.tga", "a.sgi", "a.iff", "a.jp2"};
 enum { FORMATS = sizeof each_format / sizeof *each_format };
 
 static void directories_that_refuse(void **state) {

@@ -3,8 +3,10 @@
 
 #include <math.h>
 
+#include "image/canvas.h"
 #include "image/color.h"
 #include "image/palette.h"
+#include "image/palette_chart.h"
 #include "support/close.h"
 
 static const image_palette *find(const char *name) {
@@ -135,7 +137,7 @@ static void ends_go_on(void **state) {
     (void)state;
     char list[256];
     image_palette_list(list, sizeof list);
-    assert_string_equal(list, "def, spec, pm3d, hot, eco, tbo, viridis, gray, diverging");
+    assert_string_equal(list, "def, spec, pm3d, hot, eco, tbo, viridis, gray, diverging, vivid");
     for (char *name = strtok(list, ", "); name; name = strtok(NULL, ", ")) {
         static const double beyond[][2] = {{-3, 0}, {7, 1}, {-INFINITY, 0}, {INFINITY, 1}, {NAN, 0}};
         for (int i = 0; i < 5; i++) {
@@ -151,15 +153,34 @@ static void ends_go_on(void **state) {
     assert_string_equal(list, "def, s");
 }
 
+/* To be seen on a backdrop, whose gray goes up to 3/4 of 255. */
+static void vivid_is_bright(void **state) {
+    (void)state;
+    for (int i = 0; i <= 100; i++) {
+        double color[3];
+        linear_color("vivid", i / 100., color);
+        assert_true(fmax(fmax(color[0], color[1]), color[2]) > image_srgb_decode(0.75));
+        assert_true(fmin(fmin(color[0], color[1]), color[2]) < 0.15);
+    }
+}
+
+static void palettes_are_counted(void **state) {
+    (void)state;
+    int count = 0;
+    for (const image_palette *palette; (palette = image_palette_at(count)); count++)
+        assert_ptr_equal(palette, find(image_palette_name(palette)));
+    assert_int_equal(count, 10);
+}
+
 static void chart_shows_all(void **state) {
     (void)state;
     image_canvas canvas;
     assert_true(image_draw_palettes(&canvas));
-    unsigned char color[3];
-    image_palette_color(find("def"), 511.5 / 512, color);
-    assert_memory_equal(canvas.bytes + 3 * (20 * canvas.width + canvas.width - 13), color, 3);
-    image_palette_color(find("diverging"), 511.5 / 512, color);
-    assert_memory_equal(canvas.bytes + 3 * ((canvas.height - 20) * canvas.width + canvas.width - 13), color, 3);
+    for (int i = 0; image_palette_at(i); i++) {
+        unsigned char color[3];
+        image_palette_color(image_palette_at(i), 511.5 / 512, color);
+        assert_memory_equal(canvas.bytes + 3 * ((20 + 40 * i) * canvas.width + canvas.width - 13), color, 3);
+    }
     image_canvas_free(&canvas);
 }
 
@@ -171,6 +192,8 @@ int main(void) {
         cmocka_unit_test(both_sides_of_a_difference_are_alike),
         cmocka_unit_test(differences_are_seen_by_all),
         cmocka_unit_test(ends_go_on),
+        cmocka_unit_test(vivid_is_bright),
+        cmocka_unit_test(palettes_are_counted),
         cmocka_unit_test(chart_shows_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -47,6 +47,20 @@ static inline double random_unit(uint64_t *seed) {
     return (double)(random_bits(seed) >> 11) * 0x1p-53;
 }
 
+static inline image *uniform(int width, int height, float value) {
+    image *picture = image_create(width, height, 3, NULL);
+    assert_non_null(picture);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < width * height; i++)
+            picture->channels[c][i] = value;
+    return picture;
+}
+
+static inline void set_gray(image *picture, int i, float value) {
+    for (int c = 0; c < 3; c++)
+        picture->channels[c][i] = value;
+}
+
 /* A directory of the test's own; its name ends without a slash. */
 static inline const char *make_directory(char directory[PATH_MAX]) {
     const char *parent = getenv("TMPDIR");

@@ -22,7 +22,7 @@ static graze_answer ask_of_model(const char *text, graze_brdf_model model, graze
     const graze_model_choice choice = {NULL, model};
     graze_scene *scene = scene_from_text_with(text, &(graze_scene_settings){.models = &choice, .model_count = 1});
     if (!scene)
-        fail_msg("%s", scene_messages);
+        fail_msg("%s", messages);
     graze_answer answer;
     graze_trace(scene, &settings, &ray, 7, &answer, NULL);
     graze_scene_destroy(scene);

@@ -9,7 +9,7 @@
 static graze_status find_model(const char *name, graze_brdf_model *model, const graze_report *report) {
     if (model_find(name, model))
         return GRAZE_OK;
-    return report_error(report, NULL, "-m: there is no model '%s'; models: gmd ward ward-duer ward-neumann", name);
+    return report_error(report, NULL, "-m: there is no model '%s'; models: %s", name, model_list());
 }
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
@@ -99,7 +99,7 @@ void reflectance_options_begin(reflectance_options *o, option table[REFLECTANCE_
     reflectance_parameter *p = o->parameters;
     const option entries[REFLECTANCE_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "Reflectance", 0, 0, NULL, NULL},
-        {"-m", OPTION_TEXT, &o->model, "MODEL", "gmd, ward, ward-duer or ward-neumann", 0, 0, NULL, NULL},
+        {"-m", OPTION_TEXT, &o->model, "MODEL", model_list(), 0, 0, NULL, NULL},
         {"-a", OPTION_CUSTOM, o, "A", "roughness along x and y", 0, 0, read_both, NULL},
         {"-ax", OPTION_CUSTOM, &p[ALPHA_X], "A", "roughness along x", 0, 0, read_parameter, print_parameter},
         {"-ay", OPTION_CUSTOM, &p[ALPHA_Y], "A", "roughness along y", 0, 0, read_parameter, print_parameter},

@@ -5,14 +5,12 @@
 #include "base/records.h"
 #include "fit/reflectance.h"
 
-enum { FINDINGS_MODELS = 4 };
-
 typedef struct findings {
     const fit_measurements *measurements;
     const fit_settings *settings; /* its model aside */
     const char *name;             /* of the material */
     size_t fit_count;
-    fit_result fits[FINDINGS_MODELS];
+    fit_result fits[GRAZE_BRDF_MODEL_COUNT];
 } findings;
 
 const char *findings_loss_name(fit_loss);

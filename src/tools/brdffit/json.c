@@ -1,4 +1,5 @@
 /* The report as JSON. */
+#include <math.h>
 #include <stdio.h>
 
 #include "base/angle.h"
@@ -41,11 +42,16 @@ static void append_key(record_buffer *out, const char *key) {
     record_append_text(out, ": ");
 }
 
-static void append_number(record_buffer *out, const char *key, double value) {
+/* JSON knows no other numbers than finite ones. */
+static void print_number(record_buffer *out, double value) {
     char text[NUMBER_TEXT_SIZE];
     number_print_exact(text, value);
+    record_append_text(out, isfinite(value) ? text : "null");
+}
+
+static void append_number(record_buffer *out, const char *key, double value) {
     append_key(out, key);
-    record_append_text(out, text);
+    print_number(out, value);
 }
 
 static void append_convention(record_buffer *out, const char *key, const char *value, fit_origin origin) {
@@ -79,7 +85,7 @@ static void append_settings(record_buffer *out, const findings *r) {
         record_append_text(out, "null");
     for (size_t k = 0; s->total && k < r->measurements->channel_count; k++) {
         record_append_text(out, k ? ", " : "[");
-        findings_append_number(out, 17, s->total[k]);
+        print_number(out, s->total[k]);
     }
     record_append_text(out, s->total ? "]},\n" : "},\n");
 }
@@ -156,7 +162,7 @@ static void append_material(record_buffer *out, const findings *r) {
     record_append_text(out, ", \"arguments\": [");
     for (int i = 0; i < 6; i++) {
         record_append_text(out, i ? ", " : "");
-        findings_append_number(out, 17, numbers[i]);
+        print_number(out, numbers[i]);
     }
     record_append_text(out, "]}\n");
 }

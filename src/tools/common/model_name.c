@@ -3,19 +3,30 @@
 
 #include <string.h>
 
+/* NAME(model, name) of each. */
+#define MODELS(NAME)                                                                                                   \
+    NAME(GRAZE_BRDF_GMD, "gmd")                                                                                        \
+    NAME(GRAZE_BRDF_WARD, "ward")                                                                                      \
+    NAME(GRAZE_BRDF_WARD_DUER, "ward-duer")                                                                            \
+    NAME(GRAZE_BRDF_WARD_NEUMANN, "ward-neumann")
+
+#define ENTRY(model, name)      [model] = (name),
+#define WITH_BLANK(model, name) " " name
+
+static const char *const names[] = {MODELS(ENTRY)};
+_Static_assert(sizeof names == GRAZE_BRDF_MODEL_COUNT * sizeof *names, "each model has a name");
+
 const char *model_name(graze_brdf_model model) {
-    static const char *const names[] = {
-        [GRAZE_BRDF_GMD] = "gmd",
-        [GRAZE_BRDF_WARD] = "ward",
-        [GRAZE_BRDF_WARD_DUER] = "ward-duer",
-        [GRAZE_BRDF_WARD_NEUMANN] = "ward-neumann",
-    };
     return names[model];
 }
 
+const char *model_list(void) {
+    return &(MODELS(WITH_BLANK))[1];
+}
+
 bool model_find(const char *name, graze_brdf_model *model) {
-    for (int i = GRAZE_BRDF_GMD; i <= GRAZE_BRDF_WARD_NEUMANN; i++)
-        if (strcmp(name, model_name((graze_brdf_model)i)) == 0) {
+    for (int i = 0; i < GRAZE_BRDF_MODEL_COUNT; i++)
+        if (strcmp(name, names[i]) == 0) {
             *model = (graze_brdf_model)i;
             return true;
         }

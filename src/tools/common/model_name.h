@@ -7,6 +7,7 @@
 #include "graze/brdf.h"
 
 const char *model_name(graze_brdf_model);
+const char *model_list(void);                          /* all of them, with blanks between */
 bool model_find(const char *name, graze_brdf_model *); /* false: there is none of that name */
 
 #endif

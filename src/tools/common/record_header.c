@@ -17,11 +17,11 @@ static const char *format_name(char format) {
 }
 
 void record_header_append(record_buffer *out, const tool_arguments *arguments, int numbers, char format) {
-    char line[2000];
+    char line[TOOL_COMMAND_SIZE];
     options_command_line(line, sizeof line, arguments->argc, arguments->argv);
     record_append_text(out, "#?RADIANCE\n");
     record_append_text(out, line);
-    snprintf(line, sizeof line, "\nSOFTWARE= Graze " GRAZE_VERSION "\nNCOMP=%d\n", numbers);
+    snprintf(line, sizeof line, "\nSOFTWARE= " TOOL_SOFTWARE "\nNCOMP=%d\n", numbers);
     record_append_text(out, line);
     if (format == 'f' || format == 'd') {
         snprintf(line, sizeof line, "BigEndian=%d\n", record_is_big_endian());

@@ -48,8 +48,7 @@ static graze_status take_model(void *target, const char *suffix, int count, cons
     graze_model_choice *choice = &o->choices[o->count];
     *choice = (graze_model_choice){0};
     if (!model_find(model, &choice->model))
-        return report_error(report, NULL, "--model: there is no model '%s'; models: gmd ward ward-duer ward-neumann",
-                            model);
+        return report_error(report, NULL, "--model: there is no model '%s'; models: %s", model, model_list());
     if (equals) {
         size_t length = (size_t)(equals - words[0]);
         if (length == 0 || length >= sizeof o->names[0])
@@ -89,8 +88,7 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
          NULL},
         {"--strategy", OPTION_TEXT, &o->strategy, "S",
          "light (Eq. 18), brdf (Eq. 16), mis (both); or unweighted, as old Radiance", 0, 0, NULL, NULL},
-        {"--model", OPTION_CUSTOM, &o->models, "[MATERIAL=]MODEL", "gmd, ward, ward-duer or ward-neumann", 0, 0,
-         take_model, print_models},
+        {"--model", OPTION_CUSTOM, &o->models, "[MATERIAL=]MODEL", model_list(), 0, 0, take_model, print_models},
         {"-n", OPTION_INTEGER, &o->threads, "N", "number of threads", 1, 1024, NULL, NULL},
         {"", OPTION_HEADING, NULL, NULL, "Light", 0, 0, NULL, NULL},
         {"-ab", OPTION_INTEGER, &o->ambient_bounces, "N", "diffuse interreflections", 0, 1000000, NULL, NULL},

@@ -4,6 +4,10 @@
 
 #include "base/options.h"
 
+/* What made a file, and room for the command line that did, in the file's header. */
+#define TOOL_SOFTWARE "Graze " GRAZE_VERSION
+enum { TOOL_COMMAND_SIZE = 2000 };
+
 /* The command line of a run: the words as given, for headers, and what is left of them behind the options. */
 typedef struct tool_arguments {
     int argc;
