@@ -158,7 +158,7 @@ static double samples_to_believe(const graze_trace_settings *s, estimate_luck lu
     if (luck < ESTIMATE_NOISY)
         return 0;
     bool search = luck == ESTIMATE_SEARCH;
-    if (value == 0 && search && !path_samples_lights(s) && s->floor == 0)
+    if (value == 0 && search && !context_samples_lights(s) && s->floor == 0)
         return EMPTY_SEARCH_BELIEVED;
     if (value == 0)
         return ZEROS_BELIEVED;

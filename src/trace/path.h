@@ -2,31 +2,8 @@
 #ifndef TRACE_PATH_H
 #define TRACE_PATH_H
 
-#include "graze/trace.h"
-#include "scene/scene.h"
+#include "trace/hit.h"
 #include "trace/sampler.h"
-
-/* What one path needs of its surroundings. */
-typedef struct path_context {
-    const graze_scene *scene;
-    const graze_trace_settings *settings;
-} path_context;
-
-/* Whether the strategy looks for lights at all, or leaves them to reflections. */
-bool path_samples_lights(const graze_trace_settings *);
-
-/* What a ray meets: nothing, a source, or a surface. */
-typedef struct path_hit {
-    int surface;                   /* -1: none */
-    int light;                     /* of the surface or the source; -1: none */
-    double distance;               /* from the ray's origin; GEOMETRY_FAR for a source or nothing */
-    vec3 point, normal, direction; /* the surface's own normal; the ray's direction */
-    bool behind;                   /* the surface was hit from behind */
-    bool passed;                   /* faces hidden by -bv- lie before it */
-} path_hit;
-
-/* Finds what the ray meets first, passing hidden back faces. */
-path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int from);
 
 /* Direct light as if nothing cast shadows is known without sampling (trace/unshadowed.h). What the same samples would
  * find of it differs from it by `difference`, whose mean is 0; it may be added in any proportion. The best one is how

@@ -1,0 +1,36 @@
+/* Light from emitters that reflections lead to, by Radiance's rules of what counts. */
+#include "trace/emission.h"
+
+/* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
+static double found_weight(const path *p, const path_hit *hit, light_role role) {
+    const scattering *last = &p->last;
+    bool rival = role == LIGHT_DIRECT ? context_samples_lights(p->context->settings)
+                                      : context_samples_glows(p->context->settings);
+    if (role == LIGHT_DIRECT && hit->passed)
+        return 0;
+    if (!rival)
+        return 1;
+    if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
+        return 0;
+    double other =
+        light_density(p->context->scene, &last->receiver, hit->light, hit->direction, hit->point, hit->normal);
+    return power_heuristic(last->density, other);
+}
+
+rgb emission_found(const path *p, const path_hit *hit) {
+    const scene_light *light = &p->context->scene->lights[hit->light];
+    light_role role = light_role_at(light, hit->distance);
+    rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
+    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
+        return rgb_gray(0);
+    if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
+        if (role == LIGHT_AMBIENT && !p->last.ambient)
+            return rgb_gray(0);
+        throughput = role == LIGHT_DIRECT ? p->last.direct : p->last.indirect;
+        throughput = rgb_scale(found_weight(p, hit, role), throughput);
+        radiance = light_radiance_at(light, hit->direction, hit->normal, hit->distance);
+    } else if (role != LIGHT_AMBIENT && !p->context->settings->lights_visible) {
+        return rgb_gray(0);
+    }
+    return rgb_multiply(throughput, radiance);
+}

@@ -1,0 +1,32 @@
+/* Casting rays: what is met first, hidden back faces passed. */
+#include "trace/hit.h"
+
+#include "scene/light.h"
+
+path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int from) {
+    const graze_scene *scene = context->scene;
+    path_hit hit = {.surface = -1, .light = -1, .distance = GEOMETRY_FAR, .point = origin, .direction = direction};
+    geometry_ray ray = {.origin = origin, .direction = direction, .far = limit, .from = from};
+    geometry_hit found;
+    double travelled = 0;
+    while (geometry_intersect(scene->geometry, &ray, &found)) {
+        bool behind = vec3_dot(found.normal, direction) > 0;
+        if (!behind || context->settings->back_faces_visible) {
+            hit.surface = found.surface;
+            hit.light = scene->surfaces[found.surface].light;
+            hit.distance = travelled + found.distance;
+            hit.point = found.point;
+            hit.normal = found.normal;
+            hit.behind = behind;
+            return hit;
+        }
+        hit.passed = true;
+        travelled += found.distance;
+        ray.origin = found.point;
+        ray.far -= found.distance;
+        ray.from = found.surface;
+    }
+    if (limit >= GEOMETRY_FAR)
+        hit.light = light_source_towards(scene, direction);
+    return hit;
+}

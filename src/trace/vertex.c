@@ -1,0 +1,45 @@
+/* Surfaces and sensors as a path meets them. */
+#include "trace/vertex.h"
+
+#include "base/angle.h"
+
+/* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
+#define SENSOR_HEIGHT 1e-4
+
+/* A Lambertian surface that turns irradiance into radiance of the same number. */
+static graze_surface probe(vec3 normal, vec3 view) {
+    static const graze_material white = {.kind = GRAZE_PLASTIC, .color = {1, 1, 1}};
+    graze_surface surface;
+    graze_surface_prepare(&surface, &white, normal, view, NULL);
+    surface.diffuse = rgb_gray(PI);
+    return surface;
+}
+
+bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
+    if (hit->surface < 0 || rgb_is_black(p->throughput))
+        return false;
+    const graze_scene *scene = p->context->scene;
+    const scene_material *material = &scene->materials[scene->surfaces[hit->surface].material];
+    if (material->emits)
+        return false;
+    vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
+    v->point = hit->point;
+    v->surface = hit->surface;
+    if (p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT)
+        v->shading = probe(normal, view);
+    else
+        graze_surface_prepare(&v->shading, &material->reflector, normal, view, NULL);
+    v->ambient = v->shading.diffuse;
+    v->gloss_is_ambient = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY &&
+                          material->reflector.specularity <= p->context->settings->specular_threshold;
+    if (v->gloss_is_ambient)
+        v->ambient = rgb_add(v->ambient, v->shading.specular);
+    return true;
+}
+
+vertex vertex_of_sensor(vec3 point, vec3 normal) {
+    vertex v = {
+        .point = vec3_add_scaled(point, SENSOR_HEIGHT, normal), .surface = -1, .shading = probe(normal, normal)};
+    v.ambient = v.shading.diffuse;
+    return v;
+}

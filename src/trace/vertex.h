@@ -1,0 +1,13 @@
+/* Points where light is gathered. */
+#ifndef TRACE_VERTEX_H
+#define TRACE_VERTEX_H
+
+#include "trace/path_state.h"
+
+/* Makes the vertex where the path has hit a reflecting surface. False: it has not, or carries nothing. */
+bool vertex_at_hit(const path *, const path_hit *, vertex *);
+
+/* A sensor at `point`, a little above it: a Lambertian surface whose radiance is the irradiance there. */
+vertex vertex_of_sensor(vec3 point, vec3 normal);
+
+#endif
