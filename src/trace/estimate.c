@@ -176,7 +176,7 @@ static double excess(const graze_trace_settings *s, const finding *found, uint32
 
 /* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. An error that is
  * small by chance, because the samples happen to agree, was seldom small before; so it must have been at most twice as
- * large when there were half as many. */
+ * large when there were half as many. In the end both together must say so, too, or all begins again. */
 static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
     uint32_t limit = s->sample_limit / HALVES;
@@ -195,10 +195,14 @@ static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_
             enough[i] = enough[i] || (now <= 1 && before[i] <= 2 && halves[i].taken >= needed);
             before[i] = now;
         }
-        if (last || (enough[0] && enough[1])) {
-            summarize(halves, answer);
-            return enough[0] && enough[1];
-        }
+        if (!last && !(enough[0] && enough[1]))
+            continue;
+        summarize(halves, answer);
+        double allowed = s->error * fmax(rgb_max(answer->value), s->floor);
+        bool reached = enough[0] && enough[1] && rgb_max(answer->standard_error) <= allowed;
+        if (reached || last)
+            return reached;
+        enough[0] = enough[1] = false;
     }
 }
 
