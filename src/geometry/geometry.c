@@ -246,6 +246,7 @@ graze_status geometry_build(geometry **made, const shape *shapes, size_t count, 
     if (!g)
         return report_out_of_memory(report);
     g->shapes = shapes;
+    g->shape_count = count;
     find_bounds(g, count);
     graze_status status = GRAZE_OK;
     if (count > INT_MAX)
@@ -271,6 +272,7 @@ void geometry_destroy(geometry *g) {
         rtcReleaseScene(g->scene);
     if (g->device)
         rtcReleaseDevice(g->device);
+    shaft_tree_free(&g->sights);
     free(g->triangles);
     free(g->curved);
     free(g);

@@ -4,6 +4,7 @@
 
 #include "geometry/embree.h"
 #include "geometry/geometry.h"
+#include "geometry/shaft_tree.h"
 
 /* Embree works in single precision, on a scene moved and scaled into the unit ball. Per unit of their coordinates,
  * corners and a ray's origin are wrong by up to sqrt(3) 2^-25 each, and per unit of its length the ray by as much
@@ -34,6 +35,7 @@ _Static_assert(sizeof(geometry_triangle) == 64, "a triangle fills one cache line
 
 struct geometry {
     const shape *shapes;
+    size_t shape_count;
     RTCDevice device; /* null in an empty scene */
     RTCScene scene;
     vec3 center;
@@ -44,6 +46,7 @@ struct geometry {
     size_t triangle_count;
     int *curved; /* the surfaces that are no polygons, by Embree's primitive numbers */
     size_t curved_count;
+    shaft_tree sights; /* without nodes unless prepared (geometry/shaft.h) */
 };
 
 /* A corner of the triangle. */

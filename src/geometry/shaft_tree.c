@@ -1,0 +1,195 @@
+/* Shapes sorted along a Morton curve, and the hierarchy that this order has by itself (Lauterbach et al., "Fast BVH
+ * Construction on GPUs", Computer Graphics Forum 28(2), 2009). */
+#include "geometry/shaft_tree.h"
+
+#include <stdlib.h>
+
+/* Of large scenes, leaves hold several shapes, so that there are not many more leaves than this. */
+#define LEAVES 4096
+/* A shape is large if it is longer than this part of the scene. Large ones have a hierarchy of their own, lest small
+ * ones share boxes with them. */
+#define LARGE (1.0 / 16)
+
+#define AXIS_BITS 10
+#define CODE_BITS (3 * AXIS_BITS)
+#define SMALL_BIT (UINT32_C(1) << CODE_BITS)
+
+typedef struct item {
+    uint32_t code;
+    int shape;
+} item;
+
+/* Puts two zeros before each of ten bits. */
+static uint32_t spread(uint32_t x) {
+    x = (x | x << 16) & 0x030000ff;
+    x = (x | x << 8) & 0x0300f00f;
+    x = (x | x << 4) & 0x030c30c3;
+    return (x | x << 2) & 0x09249249;
+}
+
+static uint32_t cell(double x, double lower, double upper) {
+    double at = (x - lower) / (upper - lower) * (1 << AXIS_BITS);
+    return at > 0 ? (uint32_t)fmin(at, (1 << AXIS_BITS) - 1) : 0;
+}
+
+static item item_of(const shape *shapes, int index, vec3 lower, vec3 upper) {
+    vec3 a, b;
+    shape_bounds(&shapes[index], &a, &b);
+    vec3 middle = vec3_scale(0.5, vec3_add(a, b));
+    uint32_t code = spread(cell(middle.x, lower.x, upper.x)) << 2 | spread(cell(middle.y, lower.y, upper.y)) << 1 |
+                    spread(cell(middle.z, lower.z, upper.z));
+    bool small = vec3_max_abs(vec3_subtract(b, a)) <= LARGE * vec3_max_abs(vec3_subtract(upper, lower));
+    return (item){code | (small ? SMALL_BIT : 0), index};
+}
+
+#define DIGIT_BITS 11
+#define DIGITS     (1 << DIGIT_BITS)
+
+/* Sorts by one digit, keeping the order of equals. */
+static void sort_digit(const item *from, item *to, size_t count, int shift) {
+    uint32_t start[DIGITS] = {0}, sum = 0;
+    for (size_t i = 0; i < count; i++)
+        start[from[i].code >> shift & (DIGITS - 1)]++;
+    for (int d = 0; d < DIGITS; d++) {
+        uint32_t here = start[d];
+        start[d] = sum;
+        sum += here;
+    }
+    for (size_t i = 0; i < count; i++)
+        to[start[from[i].code >> shift & (DIGITS - 1)]++] = from[i];
+}
+
+static int compare_items(const void *a, const void *b) {
+    const item *x = a, *y = b;
+    return x->code != y->code ? (x->code > y->code) - (x->code < y->code) : (x->shape > y->shape) - (x->shape < y->shape);
+}
+
+/* The sorted items, in one of the two arrays. */
+static item *sort_items(item *items, item *other, size_t count) {
+    if (count <= DIGITS) {
+        qsort(items, count, sizeof *items, compare_items);
+        return items;
+    }
+    for (int shift = 0; shift <= CODE_BITS; shift += DIGIT_BITS) {
+        sort_digit(items, other, count, shift);
+        item *swap = items;
+        items = other;
+        other = swap;
+    }
+    return items;
+}
+
+typedef struct builder {
+    shaft_tree *tree;
+    const shape *shapes;
+    const item *items;
+    size_t leaf_size;
+} builder;
+
+static void include_box(shaft_node *node, vec3 lower, vec3 upper) {
+    node->lower =
+        vec3_make(fmin(node->lower.x, lower.x), fmin(node->lower.y, lower.y), fmin(node->lower.z, lower.z));
+    node->upper =
+        vec3_make(fmax(node->upper.x, upper.x), fmax(node->upper.y, upper.y), fmax(node->upper.z, upper.z));
+}
+
+static shaft_node leaf_of(const builder *b, size_t first, size_t end) {
+    shaft_node leaf = {.lower = {INFINITY, INFINITY, INFINITY},
+                       .upper = {-INFINITY, -INFINITY, -INFINITY},
+                       .first = (uint32_t)first,
+                       .count = (uint32_t)(end - first)};
+    for (size_t i = first; i < end; i++) {
+        vec3 lower, upper;
+        shape_bounds(&b->shapes[b->items[i].shape], &lower, &upper);
+        include_box(&leaf, lower, upper);
+        leaf.reflects = leaf.reflects || !b->shapes[b->items[i].shape].shines;
+    }
+    return leaf;
+}
+
+/* Where the highest bit changes in which the codes differ; in the middle if they are all alike. */
+static size_t split_place(const item *items, size_t first, size_t end) {
+    uint32_t different = items[first].code ^ items[end - 1].code, bit = SMALL_BIT;
+    if (different == 0)
+        return first + (end - first) / 2;
+    while (!(different & bit))
+        bit >>= 1;
+    size_t low = first, high = end - 1; /* without the bit, with it */
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (items[middle].code & bit)
+            high = middle;
+        else
+            low = middle;
+    }
+    return high;
+}
+
+static bool has_room(shaft_tree *tree) {
+    if (tree->node_count + 2 <= tree->capacity)
+        return true;
+    uint32_t capacity = 2 * tree->capacity;
+    shaft_node *nodes = realloc(tree->nodes, capacity * sizeof *nodes);
+    if (!nodes)
+        return false;
+    tree->nodes = nodes;
+    tree->capacity = capacity;
+    return true;
+}
+
+/* Fills in a node, and all below it. */
+static bool build_node(const builder *b, uint32_t index, size_t first, size_t end, int depth) {
+    shaft_tree *tree = b->tree;
+    size_t most = b->items[end - 1].code & SMALL_BIT && b->items[first].code & SMALL_BIT ? b->leaf_size : 1;
+    if (end - first <= most || depth == SHAFT_TREE_DEPTH) {
+        tree->nodes[index] = leaf_of(b, first, end);
+        return true;
+    }
+    if (!has_room(tree))
+        return false;
+    uint32_t child = tree->node_count;
+    tree->node_count += 2;
+    size_t split = split_place(b->items, first, end);
+    if (!build_node(b, child, first, split, depth + 1) || !build_node(b, child + 1, split, end, depth + 1))
+        return false;
+    shaft_node node = tree->nodes[child];
+    include_box(&node, tree->nodes[child + 1].lower, tree->nodes[child + 1].upper);
+    node.reflects = node.reflects || tree->nodes[child + 1].reflects;
+    node.first = child;
+    node.count = 0;
+    tree->nodes[index] = node;
+    return true;
+}
+
+static bool build_from(shaft_tree *tree, const shape *shapes, const item *items, size_t count) {
+    builder b = {tree, shapes, items, count / LEAVES + 1};
+    tree->capacity = (uint32_t)fmin(2.0 * (double)count, 4 * LEAVES) + 2;
+    tree->node_count = 1;
+    tree->nodes = malloc(tree->capacity * sizeof *tree->nodes);
+    tree->order = malloc(count * sizeof *tree->order);
+    if (!tree->nodes || !tree->order)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        tree->order[i] = items[i].shape;
+    return build_node(&b, 0, 0, count, 1);
+}
+
+bool shaft_tree_build(shaft_tree *tree, const shape *shapes, size_t count, vec3 lower, vec3 upper) {
+    *tree = (shaft_tree){0};
+    item *items = malloc(2 * count * sizeof *items);
+    if (!items)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        items[i] = item_of(shapes, (int)i, lower, upper);
+    bool built = build_from(tree, shapes, sort_items(items, items + count, count), count);
+    free(items);
+    if (!built)
+        shaft_tree_free(tree);
+    return built;
+}
+
+void shaft_tree_free(shaft_tree *tree) {
+    free(tree->nodes);
+    free(tree->order);
+    *tree = (shaft_tree){0};
+}
