@@ -6,7 +6,10 @@
 
 /* A polygon of more corners is taken apart into its triangles, of which no more than these are tested. */
 #define FACE_CORNERS   8
-#define MOST_TRIANGLES 64
+#define MOST_TRIANGLES 32
+
+/* The test of a surface costs about as much as those of so many boxes. */
+#define TEST_WORTH 3
 
 /* A plane polygon, relative to the point. */
 typedef struct face {
@@ -54,8 +57,8 @@ static bool edge_separates(const shaft *s, const face *f) {
         double low = INFINITY, high = -INFINITY;
         for (int k = 0; k < f->count; k++) {
             double part = vec3_dot(normal, f->corners[k]);
-            low = part < low ? part : low;
-            high = part > high ? part : high;
+            low = shaft_lesser(low, part);
+            high = shaft_greater(high, part);
         }
         if (low < -slack && high > slack)
             continue;
@@ -106,7 +109,7 @@ static bool face_closes(const shaft *s, const face *f) {
 static void find_slack(const shaft *s, const geometry *g, face *f) {
     double uneven = 0;
     for (int i = 0; i < f->count; i++)
-        uneven = fmax(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
+        uneven = shaft_greater(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
     /* Candidates for a ray come from corners and in single precision, distances from the plane: both must keep off. */
     f->slack = uneven <= s->tolerance ? 0 : 256 * GEOMETRY_FLOAT_ERROR / g->scale + 2 * uneven;
 }
@@ -124,7 +127,7 @@ static geometry_visibility meet_triangles(const shaft *s, const geometry *g, con
     geometry_visibility all = GEOMETRY_CLEAR;
     if (polygon->polygon.triangle_count > MOST_TRIANGLES)
         return GEOMETRY_MIXED;
-    *budget -= (int)polygon->polygon.triangle_count;
+    *budget -= TEST_WORTH * (int)polygon->polygon.triangle_count;
     f->count = 3;
     for (uint32_t k = 0; k < polygon->polygon.triangle_count; k++) {
         for (int i = 0; i < 3; i++)
@@ -159,7 +162,7 @@ double shaft_reach_of(const shape *body, vec3 point, vec3 along) {
     if (body->kind == SHAPE_POLYGON) {
         double reach = -INFINITY;
         for (uint32_t i = 0; i < body->polygon.vertex_count; i++)
-            reach = fmax(reach, vec3_dot(along, vec3_subtract(body->polygon.vertices[i], point)));
+            reach = shaft_greater(reach, vec3_dot(along, vec3_subtract(body->polygon.vertices[i], point)));
         return reach;
     }
     if (body->kind == SHAPE_SPHERE)
@@ -167,10 +170,10 @@ double shaft_reach_of(const shape *body, vec3 point, vec3 along) {
     if (body->kind == SHAPE_RING) {
         double part = vec3_dot(along, body->ring.normal);
         return vec3_dot(along, vec3_subtract(body->ring.center, point)) +
-               body->ring.r1 * sqrt(fmax(0, 1 - part * part));
+               body->ring.r1 * sqrt(shaft_greater(0, 1 - part * part));
     }
-    double part = vec3_dot(along, body->cone.axis), across = sqrt(fmax(0, 1 - part * part));
-    return fmax(vec3_dot(along, vec3_subtract(body->cone.p0, point)) + body->cone.r0 * across,
+    double part = vec3_dot(along, body->cone.axis), across = sqrt(shaft_greater(0, 1 - part * part));
+    return shaft_greater(vec3_dot(along, vec3_subtract(body->cone.p0, point)) + body->cone.r0 * across,
                 vec3_dot(along, vec3_subtract(body->cone.p1, point)) + body->cone.r1 * across);
 }
 
@@ -244,7 +247,7 @@ static geometry_visibility meet_ring(const shaft *s, const shape *ring, int surf
 geometry_visibility shaft_meets_shape(const shaft *s, const geometry *g, int surface, int *budget) {
     const shape *body = &g->shapes[surface];
     bool left = surface == s->sight->from;
-    --*budget;
+    *budget -= TEST_WORTH;
     if (surface == s->sight->light || (left && (body->kind == SHAPE_POLYGON || body->kind == SHAPE_RING)))
         return GEOMETRY_CLEAR;
     switch (body->kind) {

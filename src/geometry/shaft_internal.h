@@ -3,6 +3,7 @@
 #define GEOMETRY_SHAFT_INTERNAL_H
 
 #include "geometry/shaft.h"
+#include "geometry/shaft_tree.h"
 
 /* Polygons of more corners are not known as lights; cutting a concave one may give half as many more. */
 #define SHAFT_LIGHT_CORNERS 16

@@ -4,11 +4,12 @@
 
 #include <stdlib.h>
 
-/* Of large scenes, leaves hold several shapes, so that there are not many more leaves than this. */
-#define LEAVES 4096
-/* A shape is large if it is longer than this part of the scene. Large ones have a hierarchy of their own, lest small
- * ones share boxes with them. */
-#define LARGE (1.0 / 16)
+/* In scenes of more shapes than a few, leaves hold several, but of large ones. */
+#define FEW       256
+#define LEAF_SIZE 8
+/* A shape is large if its area is that of a square with this part of the scene's width. Large ones have a hierarchy of
+ * their own, lest small ones share boxes with them. */
+#define LARGE (1.0 / 32)
 
 #define AXIS_BITS 10
 #define CODE_BITS (3 * AXIS_BITS)
@@ -28,18 +29,32 @@ static uint32_t spread(uint32_t x) {
 }
 
 static uint32_t cell(double x, double lower, double upper) {
+    const double last = (1 << AXIS_BITS) - 1;
     double at = (x - lower) / (upper - lower) * (1 << AXIS_BITS);
-    return at > 0 ? (uint32_t)fmin(at, (1 << AXIS_BITS) - 1) : 0;
+    return at > 0 ? (uint32_t)shaft_lesser(at, last) : 0;
+}
+
+/* A point somewhere in the middle, found without a look at corners. */
+static vec3 middle_of(const shape *s) {
+    switch (s->kind) {
+    case SHAPE_POLYGON:
+        return s->polygon.center;
+    case SHAPE_SPHERE:
+        return s->sphere.center;
+    case SHAPE_CONE:
+        return vec3_scale(0.5, vec3_add(s->cone.p0, s->cone.p1));
+    case SHAPE_RING:
+        return s->ring.center;
+    }
+    return vec3_make(0, 0, 0);
 }
 
 static item item_of(const shape *shapes, int index, vec3 lower, vec3 upper) {
-    vec3 a, b;
-    shape_bounds(&shapes[index], &a, &b);
-    vec3 middle = vec3_scale(0.5, vec3_add(a, b));
+    vec3 middle = middle_of(&shapes[index]);
+    double large = LARGE * vec3_max_abs(vec3_subtract(upper, lower));
     uint32_t code = spread(cell(middle.x, lower.x, upper.x)) << 2 | spread(cell(middle.y, lower.y, upper.y)) << 1 |
                     spread(cell(middle.z, lower.z, upper.z));
-    bool small = vec3_max_abs(vec3_subtract(b, a)) <= LARGE * vec3_max_abs(vec3_subtract(upper, lower));
-    return (item){code | (small ? SMALL_BIT : 0), index};
+    return (item){code | (shape_area(&shapes[index]) <= large * large ? SMALL_BIT : 0), index};
 }
 
 #define DIGIT_BITS 11
@@ -87,10 +102,9 @@ typedef struct builder {
 } builder;
 
 static void include_box(shaft_node *node, vec3 lower, vec3 upper) {
-    node->lower =
-        vec3_make(fmin(node->lower.x, lower.x), fmin(node->lower.y, lower.y), fmin(node->lower.z, lower.z));
-    node->upper =
-        vec3_make(fmax(node->upper.x, upper.x), fmax(node->upper.y, upper.y), fmax(node->upper.z, upper.z));
+    vec3 a = node->lower, b = node->upper;
+    node->lower = vec3_make(shaft_lesser(a.x, lower.x), shaft_lesser(a.y, lower.y), shaft_lesser(a.z, lower.z));
+    node->upper = vec3_make(shaft_greater(b.x, upper.x), shaft_greater(b.y, upper.y), shaft_greater(b.z, upper.z));
 }
 
 static shaft_node leaf_of(const builder *b, size_t first, size_t end) {
@@ -162,8 +176,8 @@ static bool build_node(const builder *b, uint32_t index, size_t first, size_t en
 }
 
 static bool build_from(shaft_tree *tree, const shape *shapes, const item *items, size_t count) {
-    builder b = {tree, shapes, items, count / LEAVES + 1};
-    tree->capacity = (uint32_t)fmin(2.0 * (double)count, 4 * LEAVES) + 2;
+    builder b = {tree, shapes, items, count > FEW ? LEAF_SIZE : 1};
+    tree->capacity = (uint32_t)fmin(2.0 * (double)count, 2 * FEW) + 2;
     tree->node_count = 1;
     tree->nodes = malloc(tree->capacity * sizeof *tree->nodes);
     tree->order = malloc(count * sizeof *tree->order);

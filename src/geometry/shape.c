@@ -214,9 +214,16 @@ graze_status shape_from_primitive(shape *s, bool *degenerate, const rad_primitiv
     }
 }
 
+/* fmin and fmax would be calls, which counts where there are millions of shapes. */
+static void include_number(double x, double *lower, double *upper) {
+    *lower = x < *lower ? x : *lower;
+    *upper = x > *upper ? x : *upper;
+}
+
 static void include_point(vec3 point, vec3 *lower, vec3 *upper) {
-    *lower = vec3_make(fmin(lower->x, point.x), fmin(lower->y, point.y), fmin(lower->z, point.z));
-    *upper = vec3_make(fmax(upper->x, point.x), fmax(upper->y, point.y), fmax(upper->z, point.z));
+    include_number(point.x, &lower->x, &upper->x);
+    include_number(point.y, &lower->y, &upper->y);
+    include_number(point.z, &lower->z, &upper->z);
 }
 
 static void include_disk(vec3 center, vec3 normal, double radius, vec3 *lower, vec3 *upper) {
