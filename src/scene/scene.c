@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/angle.h"
+#include "geometry/shaft.h"
 #include "material/from_primitive.h"
 #include "scene/emitter.h"
 #include "scene/model_choice.h"
@@ -208,6 +209,16 @@ static void add_surfaces(builder *b, size_t count) {
     scene->sources_apart = sources_are_apart(scene);
 }
 
+/* Whether there is a light that may be known without sampling where it is seen wholly. */
+static bool needs_sights(const graze_scene *scene) {
+    for (size_t i = 0; i < scene->light_count; i++) {
+        const scene_light *light = &scene->lights[i];
+        if (!light->spot && (light->shape ? light->shape->kind != SHAPE_CONE : light->half_angle < PI / 2))
+            return true;
+    }
+    return false;
+}
+
 /* Arrays as large as they can become: surfaces and materials are primitives, lights are surfaces. */
 static graze_status allocate(builder *b, size_t count) {
     graze_scene *scene = b->scene;
@@ -249,6 +260,8 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK)
         b.status = geometry_build(&scene->geometry, scene->shapes, scene->surface_count,
                                   b.settings->threads > 1 ? b.settings->threads : 1, report);
+    if (b.status == GRAZE_OK && needs_sights(scene))
+        b.status = geometry_prepare_sights(scene->geometry, report);
     free(b.material_of);
     if (b.status != GRAZE_OK) {
         graze_scene_destroy(scene);

@@ -86,7 +86,7 @@ void direct_light_add(path *p, const vertex *v, const light_receiver *receiver, 
         return;
     }
     for (int light = 0; light < (int)scene->light_count; light++)
-        if (light_probability(scene, receiver, light) > 0) {
+        if (!known_light_is_settled(p, light) && light_probability(scene, receiver, light) > 0) {
             sampler_2d(p->sampler, random);
             add_sampled_light(p, v, receiver, light, 1, random, choice);
         }

@@ -1,6 +1,8 @@
 /* Light from emitters that reflections lead to, by Radiance's rules of what counts. */
 #include "trace/emission.h"
 
+#include "trace/known_light.h"
+
 /* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
 static double found_weight(const path *p, const path_hit *hit, light_role role) {
     const scattering *last = &p->last;
@@ -24,6 +26,8 @@ rgb emission_found(const path *p, const path_hit *hit) {
     if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
         return rgb_gray(0);
     if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
+        if (known_light_is_settled(p, hit->light))
+            return rgb_gray(0);
         if (role == LIGHT_AMBIENT && !p->last.ambient)
             return rgb_gray(0);
         throughput = role == LIGHT_DIRECT ? p->last.direct : p->last.indirect;

@@ -30,6 +30,7 @@ typedef struct half {
     path_control controls[PATH_CONTROLS][IN_HALF]; /* sums */
     path_control totals[PATH_CONTROLS];
     int control_count;
+    bool integrated;    /* whether light was integrated in any sample */
     uint32_t taken;     /* of all replicates together */
     estimate_luck luck; /* the worst of any sample */
 } half;
@@ -95,7 +96,7 @@ static double standard_error(double variance, double known) {
 }
 
 static void set_answer(graze_answer *answer, rgb mean, rgb variance, const half halves[HALVES]) {
-    rgb known = halves[0].control_count + halves[1].control_count > 0 ? mean : rgb_gray(0);
+    rgb known = halves[0].integrated || halves[1].integrated ? mean : rgb_gray(0);
     answer->value = mean;
     answer->standard_error = (rgb){standard_error(variance.r, known.r), standard_error(variance.g, known.g),
                                    standard_error(variance.b, known.b)};
@@ -144,6 +145,7 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
         add_control(&h->totals[k], &taken.controls[k]);
     }
     h->control_count = taken.control_count > h->control_count ? taken.control_count : h->control_count;
+    h->integrated = h->integrated || taken.integrated;
     h->luck = luck > h->luck ? luck : h->luck;
     h->taken++;
     return luck;
@@ -213,8 +215,7 @@ void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *s
         halves[i % HALVES].key[i / HALVES] = sampler_key(s->seed, stream, (uint32_t)i);
     *answer = (graze_answer){.converged = 1};
     if (take_one(&halves[0], sample, user) == ESTIMATE_EXACT) {
-        answer->value = halves[0].sum[0];
-        answer->samples = 1;
+        set_answer(answer, halves[0].sum[0], rgb_gray(0), halves);
     } else if (s->samples) {
         take_until(&halves[0], s->samples - s->samples / HALVES, sample, user);
         take_until(&halves[1], s->samples / HALVES, sample, user);

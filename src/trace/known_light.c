@@ -1,12 +1,17 @@
-/* Control variates from closed forms of unshadowed light. */
+/* Light in closed form: exact where shadows are known, else a control variate. */
 #include "trace/known_light.h"
 
 #include "geometry/crossing.h"
+#include "geometry/shaft.h"
 #include "trace/emission.h"
 #include "trace/unshadowed.h"
 
 bool known_light_is(const path *p, int light) {
     return light < PATH_FIRST_CONTROLS && p->known.lights >> light & 1;
+}
+
+bool known_light_is_settled(const path *p, int light) {
+    return light < PATH_FIRST_CONTROLS && p->known.settled >> light & 1;
 }
 
 static path_control *control_of(path *p, int light) {
@@ -26,28 +31,60 @@ static bool has_one_role(const scene_light *light) {
     return !light->glow || light->glow_radius == 0;
 }
 
+static geometry_visibility visibility(const graze_scene *scene, const vertex *v, int index) {
+    const scene_light *light = &scene->lights[index];
+    return geometry_sight_of(scene->geometry, &(geometry_sight){.point = v->point,
+                                                                .normal = v->shading.n,
+                                                                .from = v->surface,
+                                                                .light = light->surface,
+                                                                .axis = light->center,
+                                                                .half_angle = light->half_angle});
+}
+
 void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
     const graze_scene *scene = p->context->scene;
-    p->known = (known_lights){0, p->depth > 0};
+    p->known = (known_lights){0, 0, p->depth > 0};
     if (!receiver->every || p->scattered)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
         bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
         unshadowed_light whole;
-        if (light_probability(scene, receiver, i) == 0 || !has_one_role(light) ||
-            !unshadowed_light_at(scene, &v->shading, v->point, i, glossy, &whole))
+        if (light_probability(scene, receiver, i) == 0 || !has_one_role(light))
+            continue;
+        geometry_visibility seen = visibility(scene, v, i);
+        if (seen == GEOMETRY_BLOCKED)
+            p->known.settled |= 1u << i;
+        if (seen == GEOMETRY_BLOCKED || !unshadowed_light_at(scene, &v->shading, v->point, i, glossy, &whole))
             continue;
         rgb diffuse = !ambient ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);
         rgb reflectance = rgb_scale(whole.diffuse, diffuse);
         if (glossy)
             reflectance = rgb_add_scaled(reflectance, whole.glossy, v->shading.specular);
+        rgb reflected = rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
+        p->integrated = true;
+        if (seen == GEOMETRY_CLEAR) {
+            p->known.settled |= 1u << i;
+            p->radiance = rgb_add(p->radiance, reflected);
+            continue;
+        }
         p->known.lights |= 1u << i;
         path_control *control = control_of(p, i);
-        rgb reflected = rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
         control->difference = rgb_add(control->difference, reflected);
         p->control_count = p->known.shared ? PATH_CONTROLS : i + 1 > p->control_count ? i + 1 : p->control_count;
     }
+}
+
+bool known_light_is_all(const path *p, const vertex *v, const light_receiver *receiver) {
+    const graze_scene *scene = p->context->scene;
+    /* Glows that are not sampled are found by reflection alone. */
+    if (!receiver->every || p->known.settled == 0 || v->shading.specular_lobe == GRAZE_LOBE_MIRROR ||
+        !context_samples_glows(p->context->settings))
+        return false;
+    for (int i = 0; i < (int)scene->light_count; i++)
+        if (!known_light_is_settled(p, i) && light_probability(scene, receiver, i) > 0)
+            return false;
+    return !geometry_reflects_above(scene->geometry, v->point, v->shading.n, v->surface);
 }
 
 void known_light_subtract_reflected(path *p, const vertex *from, const path_hit *hit, rgb found) {

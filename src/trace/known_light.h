@@ -1,13 +1,19 @@
-/* Light that is known without sampling as long as nothing casts shadows, as a control of what samples find. */
+/* Light that is known without sampling. Where nothing stands between a light and a vertex, that is all there is to it,
+ * and where nothing of the light is seen, too: it is settled. Else it is a control of what samples find. */
 #ifndef TRACE_KNOWN_LIGHT_H
 #define TRACE_KNOWN_LIGHT_H
 
 #include "trace/path_state.h"
 
-/* Whether it is at the path's last vertex. */
+/* Whether it is a control at the path's last vertex. */
 bool known_light_is(const path *, int light);
+/* Whether it has been added, and must not be found in other ways. */
+bool known_light_is_settled(const path *, int light);
 
-/* Adds what is known of the lights' unshadowed light at a vertex, and remembers of which. */
+/* Whether the lights are all that could be reflected at the vertex, and all of them are settled. */
+bool known_light_is_all(const path *, const vertex *, const light_receiver *);
+
+/* Adds what is known of the lights' light at a vertex, and remembers of which. */
 void known_light_add(path *, const vertex *, const light_receiver *);
 
 /* Takes what a sample finds, or would find without shadows, of a light that is known. */

@@ -21,10 +21,12 @@ static void follow(path *p, vertex v) {
                 p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
         lobe_choice choice = lobes_choose(p, &v);
         light_receiver receiver = direct_light_receiver(p, &v);
-        p->known.lights = 0;
+        p->known.lights = p->known.settled = 0;
         if (receiver.candidates > 0) {
             known_light_add(p, &v, &receiver);
             direct_light_add(p, &v, &receiver, choice);
+            if (known_light_is_all(p, &v, &receiver))
+                return;
         }
         vec3 direction;
         if (!lobes_reflect(p, &v, &receiver, choice, &direction))
@@ -47,7 +49,8 @@ static path_sample path_end(const path *p, uint32_t first_group) {
     path_sample sample = {.radiance = p->radiance,
                           .control_count = p->control_count,
                           .noisy = p->sampler->group != first_group,
-                          .searching = p->searching};
+                          .searching = p->searching,
+                          .integrated = p->integrated};
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
     return sample;

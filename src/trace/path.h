@@ -22,6 +22,7 @@ typedef struct path_sample {
     path_control controls[PATH_CONTROLS];
     int control_count; /* the others are 0 */
     bool noisy;        /* random numbers were drawn: another sample may differ */
+    bool integrated;   /* some of it is exact but for what graze/brdf_light.h allows */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall
                      */
 } path_sample;

@@ -31,6 +31,7 @@ typedef struct scattering {
  * of them. */
 typedef struct known_lights {
     unsigned lights;
+    unsigned settled; /* of others all that they give is known: they are seen wholly, or not at all */
     bool shared; /* one control for all */
 } known_lights;
 
@@ -42,6 +43,7 @@ typedef struct path {
     int depth;         /* all reflections so far */
     bool scattered;    /* whether any of them was not a mirror's */
     bool searching;    /* whether one may meet lights that no light sample finds */
+    bool integrated;   /* whether some of the radiance is known without sampling */
     scattering last;
     known_lights known;
     path_control controls[PATH_CONTROLS];
