@@ -29,13 +29,13 @@ typedef struct box {
     vec3 center, half;
 } box;
 
-static box box_from(const shaft_node *n, vec3 point) {
+static inline box box_from(const shaft_node *n, vec3 point) {
     vec3 half = vec3_scale(0.5, vec3_subtract(n->upper, n->lower));
     return (box){vec3_subtract(vec3_add(n->lower, half), point), half};
 }
 
 /* How far a box reaches along a vector. */
-static shaft_span box_span(const box *b, vec3 along) {
+static inline shaft_span box_span(const box *b, vec3 along) {
     double middle = vec3_dot(along, b->center);
     double reach = fabs(along.x) * b->half.x + fabs(along.y) * b->half.y + fabs(along.z) * b->half.z;
     return (shaft_span){middle - reach, middle + reach};

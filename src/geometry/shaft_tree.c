@@ -4,8 +4,10 @@
 
 #include <stdlib.h>
 
-/* In scenes of more shapes than a few, leaves hold several, but of large ones. */
-#define FEW       256
+#include "geometry/shaft_split.h"
+
+/* In scenes of more shapes than a few, leaves hold several small ones, and the curve's order must do for them. */
+#define FEW       SHAFT_SPLIT_MOST
 #define LEAF_SIZE 8
 /* A shape is large if its area is that of a square with this part of the scene's width. Large ones have a hierarchy of
  * their own, lest small ones share boxes with them. */
@@ -113,10 +115,11 @@ static shaft_node leaf_of(const builder *b, size_t first, size_t end) {
                        .first = (uint32_t)first,
                        .count = (uint32_t)(end - first)};
     for (size_t i = first; i < end; i++) {
+        const shape *s = &b->shapes[b->tree->order[i]];
         vec3 lower, upper;
-        shape_bounds(&b->shapes[b->items[i].shape], &lower, &upper);
+        shape_bounds(s, &lower, &upper);
         include_box(&leaf, lower, upper);
-        leaf.reflects = leaf.reflects || !b->shapes[b->items[i].shape].shines;
+        leaf.reflects = leaf.reflects || !s->shines;
     }
     return leaf;
 }
@@ -154,7 +157,8 @@ static bool has_room(shaft_tree *tree) {
 /* Fills in a node, and all below it. */
 static bool build_node(const builder *b, uint32_t index, size_t first, size_t end, int depth) {
     shaft_tree *tree = b->tree;
-    size_t most = b->items[end - 1].code & SMALL_BIT && b->items[first].code & SMALL_BIT ? b->leaf_size : 1;
+    bool small = b->items[first].code & SMALL_BIT; /* items come in the curve's order, large ones first */
+    size_t most = small ? b->leaf_size : 1;
     if (end - first <= most || depth == SHAFT_TREE_DEPTH) {
         tree->nodes[index] = leaf_of(b, first, end);
         return true;
@@ -163,7 +167,8 @@ static bool build_node(const builder *b, uint32_t index, size_t first, size_t en
         return false;
     uint32_t child = tree->node_count;
     tree->node_count += 2;
-    size_t split = split_place(b->items, first, end);
+    size_t split = most == 1 && end - first <= FEW ? first + shaft_split(b->shapes, tree->order + first, end - first)
+                                                   : split_place(b->items, first, end);
     if (!build_node(b, child, first, split, depth + 1) || !build_node(b, child + 1, split, end, depth + 1))
         return false;
     shaft_node node = tree->nodes[child];
