@@ -6,7 +6,7 @@
 #include "geometry/shaft.h"
 #include "geometry/solid_angle.h"
 
-#define SHAPES 256
+#define SHAPES 1500
 
 /* A scene that grows. */
 typedef struct world {
@@ -132,16 +132,17 @@ static void add_tilted(world *w, dice *d) {
     }
 }
 
+#define MOST_CELLS 24
+
 /* A bumpy cloth of triangles. */
-static void add_cloth(world *w, dice *d) {
-    enum { CELLS = 6 };
-    vec3 v[CELLS + 1][CELLS + 1];
-    double x = roll_between(d, 0.5, 2.5), y = roll_between(d, 0.5, 1.5);
-    for (int i = 0; i <= CELLS; i++)
-        for (int k = 0; k <= CELLS; k++)
-            v[i][k] = at(w, x + 0.15 * i, y + 0.15 * k, roll_between(d, 0.3, 0.4));
-    for (int i = 0; i < CELLS; i++)
-        for (int k = 0; k < CELLS; k++) {
+static void add_cloth(world *w, dice *d, int cells) {
+    vec3 v[MOST_CELLS + 1][MOST_CELLS + 1];
+    double x = roll_between(d, 0.5, 2.5), y = roll_between(d, 0.5, 1.5), size = 0.9 / cells;
+    for (int i = 0; i <= cells; i++)
+        for (int k = 0; k <= cells; k++)
+            v[i][k] = at(w, x + size * i, y + size * k, roll_between(d, 0.3, 0.3 + 0.7 * size));
+    for (int i = 0; i < cells; i++)
+        for (int k = 0; k < cells; k++) {
             add(w, make_polygon(3, (vec3[]){v[i][k], v[i + 1][k], v[i + 1][k + 1]}));
             add(w, make_polygon(3, (vec3[]){v[i][k], v[i + 1][k + 1], v[i][k + 1]}));
         }
@@ -299,16 +300,106 @@ static void furnished_rooms(void **state) {
         if (i % 2)
             add_tilted(&w, &d);
         if (i % 4 >= 2)
-            add_cloth(&w, &d);
+            add_cloth(&w, &d, 6);
         check_world(&w, &d, 200, &sum);
     }
     assert_useful(&sum, 0.85, 0.7);
+}
+
+/* More shapes than are sorted with care. */
+static void meshes(void **state) {
+    (void)state;
+    dice d = {5};
+    score sum = {0};
+    for (int i = 0; i < 10; i++) {
+        world w;
+        place_world(&w, &d);
+        add_room(&w);
+        add_lamps(&w, &d);
+        add_things(&w, &d);
+        add_cloth(&w, &d, MOST_CELLS);
+        check_world(&w, &d, 500, &sum);
+    }
+    assert_useful(&sum, 0.8, 0.6);
+}
+
+/* Where nothing is said to stand above the horizon, no ray above it meets anything that does not shine. */
+static void nothing_above(void **state) {
+    (void)state;
+    dice d = {6};
+    int free = 0;
+    for (int i = 0; i < 40; i++) {
+        world w;
+        place_world(&w, &d);
+        if (i % 4 == 0)
+            add_room(&w);
+        add_lamps(&w, &d);
+        if (i % 4 <= 1)
+            add(&w, make_sphere(at(&w, 1, 1, 1), 0.2 * w.scale));
+        if (i % 2)
+            add(&w, face(&w, (double[]){0, 0, 0}, (double[]){4, 3, 2.5}, 4, true));
+        build(&w);
+        for (int k = 0; k < 200; k++) {
+            geometry_sight sight;
+            if (!roll_receiver(&w, &d, &sight) ||
+                geometry_reflects_above(w.geometry, sight.point, sight.normal, sight.from))
+                continue;
+            free++;
+            for (int j = 0; j < 20; j++) {
+                geometry_ray ray = {sight.point, roll_direction(&d), GEOMETRY_FAR, sight.from};
+                geometry_hit hit;
+                if (vec3_dot(ray.direction, sight.normal) <= 0 || !geometry_intersect(w.geometry, &ray, &hit))
+                    continue;
+                assert_true(w.shapes[hit.surface].shines);
+            }
+        }
+        geometry_destroy(w.geometry);
+    }
+    assert_true(free > 500);
+}
+
+static void a_plane_and_a_lamp(void **state) {
+    (void)state;
+    world w = {.scale = 1};
+    add_lamp(&w, panel(&w, 1, 1, 2, 1));
+    add(&w, face(&w, (double[]){0, 0, 0}, (double[]){4, 3, 2.5}, 4, true));
+    build(&w);
+    geometry_sight sight = {.point = {0.3, 0.2, 0}, .normal = {0, 0, 1}, .from = 1, .light = 0};
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_CLEAR);
+    assert_false(geometry_reflects_above(w.geometry, sight.point, sight.normal, 1));
+    sight.normal.z = -1; /* seen through the floor, from below its horizon */
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_CLEAR);
+    sight = (geometry_sight){.point = {1.5, 1.5, -1}, .normal = {0, 0, 1}, .from = -1, .light = 0};
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_BLOCKED);
+    sight.point.x = -0.7; /* half past the floor's edge */
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_MIXED);
+    geometry_destroy(w.geometry);
+}
+
+static void unprepared(void **state) {
+    (void)state;
+    world w = {.scale = 1};
+    geometry_sight sight = {.normal = {0, 0, 1}, .from = -1, .light = 0};
+    messages m = {0};
+    graze_report report = {messages_write, &m};
+    add_lamp(&w, panel(&w, 1, 1, 2, 1));
+    assert_int_equal(geometry_build(&w.geometry, w.shapes, 1, 1, &report), GRAZE_OK);
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_MIXED);
+    assert_true(geometry_reflects_above(w.geometry, sight.point, sight.normal, -1));
+    geometry_destroy(w.geometry);
+    assert_int_equal(geometry_build(&w.geometry, NULL, 0, 1, &report), GRAZE_OK);
+    assert_int_equal(geometry_prepare_sights(w.geometry, &report), GRAZE_OK);
+    geometry_destroy(w.geometry);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(empty_rooms),
         cmocka_unit_test(furnished_rooms),
+        cmocka_unit_test(meshes),
+        cmocka_unit_test(nothing_above),
+        cmocka_unit_test(a_plane_and_a_lamp),
+        cmocka_unit_test(unprepared),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

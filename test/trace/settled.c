@@ -1,0 +1,141 @@
+/* Lights that are seen wholly, or not at all, are not sampled. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/vector.h"
+#include "graze/trace.h"
+#include "support/scene_text.h"
+
+#define LAMP  "void light bright 0 0 3 10 10 10 bright polygon lamp 0 0 12 -1 -1 3 -1 1 3 1 1 3 1 -1 3 "
+#define FLOOR "polygon floor 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0\n"
+
+static graze_answer ask(const graze_scene *scene, graze_strategy strategy, int bounces, uint32_t samples, graze_ray ray,
+                        uint64_t stream) {
+    graze_trace_settings s = graze_trace_defaults();
+    s.strategy = strategy;
+    s.ambient_bounces = bounces;
+    s.samples = samples;
+    graze_answer answer;
+    graze_trace(scene, &s, &ray, stream, &answer, NULL);
+    return answer;
+}
+
+static graze_scene *load(const char *text) {
+    graze_scene *scene = scene_from_text(text);
+    if (!scene)
+        fail_msg("%s", messages);
+    return scene;
+}
+
+static const graze_ray slanted = {.origin = {-2, 0.5, 1}, .direction = {1, -0.1, -1}};
+
+/* One path, and the error that its closed form may have. */
+static void assert_exact(const char *text, int bounces) {
+    graze_scene *scene = load(text);
+    for (int strategy = 0; strategy < 2; strategy++) {
+        graze_answer answer = ask(scene, (graze_strategy)strategy, bounces, 0, slanted, 1);
+        assert_int_equal(answer.samples, 1);
+        assert_true(answer.converged);
+        assert_true(answer.value.g > 0);
+        assert_true(fabs(answer.standard_error.g - 1e-8 * answer.value.g) < 1e-12 * answer.value.g);
+        graze_answer other = ask(scene, GRAZE_STRATEGY_BRDF, bounces, 1u << 15, slanted, 2);
+        assert_true(other.samples == 1u << 15);
+        if (fabs(answer.value.g - other.value.g) > 4 * other.standard_error.g)
+            fail_msg("%g, but %g +- %g", answer.value.g, other.value.g, other.standard_error.g);
+    }
+    graze_scene_destroy(scene);
+}
+
+static void nothing_but_a_lamp(void **state) {
+    (void)state;
+    assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR, 0);
+    assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR, 0);
+    assert_exact(LAMP "void metal m 0 0 5 .5 .5 .5 .8 .1 m " FLOOR, 2);
+    assert_exact(LAMP "void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 "
+                      "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR,
+                 1);
+    /* Other things below the horizon, and diffuse surfaces above it that no reflection may go to. */
+    assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m sphere ball 0 0 4 0 0 -2 1 m " FLOOR, 1);
+    assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m sphere ball 0 0 4 -4 -4 1 1 m " FLOOR, 0);
+}
+
+/* Black, without a doubt. */
+static void hidden_lamp(void **state) {
+    (void)state;
+    graze_scene *scene = load(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR
+                                   "m polygon lid 0 0 12 -2 -2 1.5 2 -2 1.5 2 2 1.5 -2 2 1.5\n");
+    graze_answer answer = ask(scene, GRAZE_STRATEGY_MIS, 0, 0, slanted, 1);
+    assert_int_equal(answer.samples, 1);
+    assert_true(answer.value.g == 0 && answer.standard_error.g == 0);
+    graze_scene_destroy(scene);
+}
+
+/* Where there are shadows, or other things to be seen in a reflection, samples are drawn. */
+static void not_settled(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m sphere ball 0 0 4 -.5 0 2 .3 m " FLOOR,
+        LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m sphere ball 0 0 4 -4 -4 1 1 m " FLOOR,
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        graze_scene *scene = load(texts[i]);
+        assert_true(ask(scene, GRAZE_STRATEGY_MIS, 0, 0, slanted, 1).samples >= 32);
+        graze_scene_destroy(scene);
+    }
+    graze_scene *scene = load(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR);
+    assert_true(ask(scene, GRAZE_STRATEGY_BRDF, 0, 0, slanted, 1).samples >= 32);
+    assert_true(ask(scene, GRAZE_STRATEGY_UNWEIGHTED, 0, 0, slanted, 1).samples >= 32);
+    graze_scene_destroy(scene);
+}
+
+/* A room with lamps of three kinds, a mirror, glossy things, and a window. */
+static const char room[] =
+    "void plastic wall 0 0 5 .6 .6 .6 0 0 void plastic2 gloss 4 1 0 0 . 0 6 .3 .4 .5 .1 .15 .3 "
+    "void metal2 steel 4 0 0 1 . 0 6 .7 .7 .7 .8 .1 .3 void metal silver 0 0 5 .9 .9 .9 1 0 "
+    "void light bright 0 0 3 10 10 10 void glow sky 0 0 4 2 2 2 0 "
+    "gloss polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0 wall polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5 "
+    "wall polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0 steel polygon north 0 0 12 0 3 0 4 3 0 4 3 2.5 0 3 2.5 "
+    "wall polygon west 0 0 12 0 0 0 0 3 0 0 3 2.5 0 0 2.5 silver polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0 "
+    "bright polygon panel 0 0 12 1 1 2.5 1 2 2.5 2 2 2.5 2 1 2.5 bright sphere globe 0 0 4 3 1.5 1.8 .2 "
+    "bright ring disk 0 0 8 .5 2.5 2.2 .3 -.3 -1 .05 .4 sky polygon window 0 0 12 .5 .001 1 .5 .001 2 1.5 .001 2 1.5 .001 1 "
+    "steel sphere ball 0 0 4 2 1 .5 .5 gloss cylinder column 0 0 7 3 2.5 0 3 2.5 2.5 .15 "
+    "wall polygon screen 0 0 12 1 2.2 0 2.5 2.2 0 2.5 2.2 1.6 1 2.2 1.6\n";
+
+/* As the other strategies have it, in sum and ray by ray. */
+static void as_without(void **state) {
+    (void)state;
+    enum { RAYS = 60 };
+    graze_scene *scene = load(room);
+    for (int bounces = 0; bounces < 2; bounces++) {
+        double difference = 0, variance = 0, scatter = 0;
+        for (int i = 0; i < RAYS; i++) {
+            double turn = 2.4 * i, rise = (i + 0.5) / RAYS * 2 - 1, flat = sqrt(1 - rise * rise);
+            graze_ray ray = {.origin = {2.2, 1.7, 1.2}, .direction = {flat * cos(turn), flat * sin(turn), rise}};
+            graze_answer a = ask(scene, i % 2 ? GRAZE_STRATEGY_MIS : GRAZE_STRATEGY_LIGHT, bounces, 512, ray, 3);
+            graze_answer b = ask(scene, GRAZE_STRATEGY_BRDF, bounces, 1u << 13, ray, 4);
+            double d = a.value.g - b.value.g;
+            double v = a.standard_error.g * a.standard_error.g + b.standard_error.g * b.standard_error.g;
+            difference += d;
+            variance += v;
+            scatter += v > 0 ? d * d / v : 0;
+        }
+        if (fabs(difference) > 4 * sqrt(variance) || scatter > 1.8 * RAYS)
+            fail_msg("%g +- %g, scatter %g", difference, sqrt(variance), scatter / RAYS);
+    }
+    graze_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_but_a_lamp),
+        cmocka_unit_test(hidden_lamp),
+        cmocka_unit_test(not_settled),
+        cmocka_unit_test(as_without),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
