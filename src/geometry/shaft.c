@@ -14,8 +14,8 @@ graze_status geometry_prepare_sights(geometry *g, const graze_report *report) {
     vec3 reach = {g->radius, g->radius, g->radius};
     if (count == 0 || g->sights.nodes)
         return GRAZE_OK;
-    bool built = shaft_tree_build(&g->sights, g->shapes, count, vec3_subtract(g->center, reach),
-                                  vec3_add(g->center, reach));
+    bool built =
+        shaft_tree_build(&g->sights, g->shapes, count, vec3_subtract(g->center, reach), vec3_add(g->center, reach));
     return built ? GRAZE_OK : report_out_of_memory(report);
 }
 

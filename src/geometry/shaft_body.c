@@ -174,7 +174,7 @@ double shaft_reach_of(const shape *body, vec3 point, vec3 along) {
     }
     double part = vec3_dot(along, body->cone.axis), across = sqrt(shaft_greater(0, 1 - part * part));
     return shaft_greater(vec3_dot(along, vec3_subtract(body->cone.p0, point)) + body->cone.r0 * across,
-                vec3_dot(along, vec3_subtract(body->cone.p1, point)) + body->cone.r1 * across);
+                         vec3_dot(along, vec3_subtract(body->cone.p1, point)) + body->cone.r1 * across);
 }
 
 static bool body_is_beside(const shaft *s, const shape *body, int surface) {

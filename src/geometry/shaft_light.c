@@ -80,8 +80,7 @@ static void surround_disk(shaft *s) {
     const double cosines[ROUND_CORNERS] = {1, half, 0, -half, -1, -half, 0, half};
     for (int i = 0; i < ROUND_CORNERS; i++) {
         double cosine = cosines[i], sine = cosines[(i + ROUND_CORNERS - 2) % ROUND_CORNERS];
-        s->corners[i] =
-            vec3_add_scaled(vec3_add_scaled(s->center, radius * cosine, first), radius * sine, second);
+        s->corners[i] = vec3_add_scaled(vec3_add_scaled(s->center, radius * cosine, first), radius * sine, second);
     }
     s->corner_count = ROUND_CORNERS;
     s->round = true;

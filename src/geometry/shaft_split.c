@@ -15,10 +15,10 @@ typedef struct entry {
 } entry;
 
 static bounds join(bounds a, bounds b) {
-    return (bounds){{shaft_lesser(a.lower.x, b.lower.x), shaft_lesser(a.lower.y, b.lower.y),
-                     shaft_lesser(a.lower.z, b.lower.z)},
-                    {shaft_greater(a.upper.x, b.upper.x), shaft_greater(a.upper.y, b.upper.y),
-                     shaft_greater(a.upper.z, b.upper.z)}};
+    return (bounds){
+        {shaft_lesser(a.lower.x, b.lower.x), shaft_lesser(a.lower.y, b.lower.y), shaft_lesser(a.lower.z, b.lower.z)},
+        {shaft_greater(a.upper.x, b.upper.x), shaft_greater(a.upper.y, b.upper.y),
+         shaft_greater(a.upper.z, b.upper.z)}};
 }
 
 static double half_area(bounds box) {

@@ -78,7 +78,8 @@ static void sort_digit(const item *from, item *to, size_t count, int shift) {
 
 static int compare_items(const void *a, const void *b) {
     const item *x = a, *y = b;
-    return x->code != y->code ? (x->code > y->code) - (x->code < y->code) : (x->shape > y->shape) - (x->shape < y->shape);
+    return x->code != y->code ? (x->code > y->code) - (x->code < y->code)
+                              : (x->shape > y->shape) - (x->shape < y->shape);
 }
 
 /* The sorted items, in one of the two arrays. */

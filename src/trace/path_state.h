@@ -32,7 +32,7 @@ typedef struct scattering {
 typedef struct known_lights {
     unsigned lights;
     unsigned settled; /* of others all that they give is known: they are seen wholly, or not at all */
-    bool shared; /* one control for all */
+    bool shared;      /* one control for all */
 } known_lights;
 
 typedef struct path {

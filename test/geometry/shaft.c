@@ -65,14 +65,15 @@ static shape panel(const world *w, double x, double y, double z, double size) {
 }
 
 static void add_lamps(world *w, dice *d) {
-    add_lamp(w, panel(w, 0.5, 0.5, 2.5, 0.5));                      /* in the ceiling's plane, */
-    add_lamp(w, panel(w, 1, 0.5, 2.5, 0.25));                       /* beside it, */
-    add_lamp(w, panel(w, 0.6, 0.6, 2.5, 0.2));                      /* and within it */
-    add_lamp(w, panel(w, 3.5, 2.5, 2.5, 0.5));                      /* into the room's corner */
+    add_lamp(w, panel(w, 0.5, 0.5, 2.5, 0.5));                       /* in the ceiling's plane, */
+    add_lamp(w, panel(w, 1, 0.5, 2.5, 0.25));                        /* beside it, */
+    add_lamp(w, panel(w, 0.6, 0.6, 2.5, 0.2));                       /* and within it */
+    add_lamp(w, panel(w, 3.5, 2.5, 2.5, 0.5));                       /* into the room's corner */
     add_lamp(w, panel(w, 3, roll_between(d, 0, 2), 2.4999999, 0.3)); /* almost in the ceiling */
     add_lamp(w, panel(w, 2, 1, roll_between(d, 2, 2.4), 0.4));
     add_lamp(w, make_sphere(at(w, 1.5, 2.25, 2.25), 0.25 * w->scale)); /* touches the ceiling */
-    add_lamp(w, make_sphere(at(w, roll_between(d, 1, 3), 1, roll_between(d, 0.5, 2)), roll_between(d, 0.01, 0.2) * w->scale));
+    add_lamp(w, make_sphere(at(w, roll_between(d, 1, 3), 1, roll_between(d, 0.5, 2)),
+                            roll_between(d, 0.01, 0.2) * w->scale));
     add_lamp(w, make_ring(at(w, 2.5, 2, 2.5), vec3_make(0, 0, -1), 0.1 * w->scale, 0.3 * w->scale));
     add_lamp(w, make_ring(at(w, 0, 1.5, 1.5), roll_direction(d), 0, 0.2 * w->scale));
     vec3 middle = at(w, roll_between(d, 1, 3), roll_between(d, 1, 2), roll_between(d, 1, 2));
@@ -376,6 +377,42 @@ static void a_plane_and_a_lamp(void **state) {
     geometry_destroy(w.geometry);
 }
 
+/* What the only light's shadow rays say. */
+static void check_alone(world *w, vec3 normal) {
+    dice d = {7};
+    score sum = {0};
+    geometry_sight sight = {.point = w->corner, .normal = normal, .from = -1, .light = w->lights[0]};
+    build(w);
+    check_sight(w, &d, &sight, &sum);
+    geometry_destroy(w->geometry);
+}
+
+/* A lamp before a ball, neither of them behind the other's plane; and one behind. */
+static void a_lamp_and_a_ball(void **state) {
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        world w = {.scale = 1};
+        double z = 0.1 * (i + 5);
+        add_lamp(&w,
+                 quadrangle(&w, (double[4][3]){
+                                    {-.1, -.1, z - .15}, {-.1, .1, z - .15}, {.1, .1, z + .15}, {.1, -.1, z + .15}}));
+        add(&w, make_sphere(vec3_make(0, 0, 2), 1));
+        check_alone(&w, vec3_make(0, 0, 1));
+    }
+}
+
+/* A star that is drawn in one stroke is open in its middle. */
+static void a_star(void **state) {
+    (void)state;
+    world w = {.scale = 1};
+    vec3 star[5];
+    for (int i = 0; i < 5; i++)
+        star[i] = vec3_make(cos(4 * PI / 5 * i), sin(4 * PI / 5 * i), 1);
+    add_lamp(&w, panel(&w, -0.1, -0.1, 2, 0.2));
+    add(&w, make_polygon(5, star));
+    check_alone(&w, vec3_make(0, 0, 1));
+}
+
 static void unprepared(void **state) {
     (void)state;
     world w = {.scale = 1};
@@ -394,12 +431,9 @@ static void unprepared(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(empty_rooms),
-        cmocka_unit_test(furnished_rooms),
-        cmocka_unit_test(meshes),
-        cmocka_unit_test(nothing_above),
-        cmocka_unit_test(a_plane_and_a_lamp),
-        cmocka_unit_test(unprepared),
+        cmocka_unit_test(empty_rooms),   cmocka_unit_test(furnished_rooms),    cmocka_unit_test(meshes),
+        cmocka_unit_test(nothing_above), cmocka_unit_test(a_plane_and_a_lamp), cmocka_unit_test(a_lamp_and_a_ball),
+        cmocka_unit_test(a_star),        cmocka_unit_test(unprepared),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

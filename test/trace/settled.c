@@ -64,6 +64,25 @@ static void nothing_but_a_lamp(void **state) {
     assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m sphere ball 0 0 4 -4 -4 1 1 m " FLOOR, 0);
 }
 
+/* A thing above the horizon that gives no light changes nothing but the number of paths: reflections that meet the lamp
+ * do not count. */
+static void something_black(void **state) {
+    (void)state;
+    static const char lamp[] = LAMP "void plastic m 0 0 5 .5 .5 .5 .3 .2 m " FLOOR;
+    static const char thing[] = LAMP "void plastic m 0 0 5 .5 .5 .5 .3 .2 void plastic coal 0 0 5 0 0 0 0 0 coal "
+                                     "sphere ball 0 0 4 -4 -4 1 1 m " FLOOR;
+    graze_scene *alone = load(lamp), *scene = load(thing);
+    for (int strategy = 0; strategy < 2; strategy++)
+        for (int bounces = 0; bounces < 2; bounces++) {
+            graze_answer truth = ask(alone, (graze_strategy)strategy, bounces, 0, slanted, 1);
+            graze_answer answer = ask(scene, (graze_strategy)strategy, bounces, 0, slanted, 1);
+            assert_true(answer.samples >= 32);
+            assert_true(fabs(answer.value.g - truth.value.g) < 1e-12 * truth.value.g);
+        }
+    graze_scene_destroy(alone);
+    graze_scene_destroy(scene);
+}
+
 /* Black, without a doubt. */
 static void hidden_lamp(void **state) {
     (void)state;
@@ -102,7 +121,8 @@ static const char room[] =
     "wall polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0 steel polygon north 0 0 12 0 3 0 4 3 0 4 3 2.5 0 3 2.5 "
     "wall polygon west 0 0 12 0 0 0 0 3 0 0 3 2.5 0 0 2.5 silver polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0 "
     "bright polygon panel 0 0 12 1 1 2.5 1 2 2.5 2 2 2.5 2 1 2.5 bright sphere globe 0 0 4 3 1.5 1.8 .2 "
-    "bright ring disk 0 0 8 .5 2.5 2.2 .3 -.3 -1 .05 .4 sky polygon window 0 0 12 .5 .001 1 .5 .001 2 1.5 .001 2 1.5 .001 1 "
+    "bright ring disk 0 0 8 .5 2.5 2.2 .3 -.3 -1 .05 .4 sky polygon window 0 0 12 .5 .001 1 .5 .001 2 1.5 .001 2 1.5 "
+    ".001 1 "
     "steel sphere ball 0 0 4 2 1 .5 .5 gloss cylinder column 0 0 7 3 2.5 0 3 2.5 2.5 .15 "
     "wall polygon screen 0 0 12 1 2.2 0 2.5 2.2 0 2.5 2.2 1.6 1 2.2 1.6\n";
 
@@ -132,10 +152,8 @@ static void as_without(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_but_a_lamp),
-        cmocka_unit_test(hidden_lamp),
-        cmocka_unit_test(not_settled),
-        cmocka_unit_test(as_without),
+        cmocka_unit_test(nothing_but_a_lamp), cmocka_unit_test(something_black), cmocka_unit_test(hidden_lamp),
+        cmocka_unit_test(not_settled),        cmocka_unit_test(as_without),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
