@@ -41,6 +41,7 @@ static const char *const channel_names[] = {
 typedef struct pixel {
     const rendering *rendering;
     int column, row;
+    path_memory *memory;
 } pixel;
 
 /* The ray through a point of the pixel, (0.5, 0.5) its centre, x to the right, y up. */
@@ -64,7 +65,7 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     graze_ray ray;
     if (!pixel_ray(p, 0.5 + jitter * (random[0] - 0.5), 0.5 + jitter * (random[1] - 0.5), &ray))
         return (path_sample){.noisy = false};
-    path_context context = {r->scene, &r->trace};
+    path_context context = {r->scene, &r->trace, p->memory};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     path_sample sample = path_radiance(&context, &first, points);
     if (sample.noisy)
@@ -75,7 +76,9 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
 static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings) {
     uint64_t number = (uint64_t)p->row * (uint64_t)p->rendering->picture->width + (uint64_t)p->column;
     graze_answer answer;
-    estimate(settings, number, sample_pixel, (void *)p, &answer);
+    path_memory known = {.alike = !(p->rendering->picture->jitter > 0)};
+    pixel remembering = {p->rendering, p->column, p->row, &known};
+    estimate(settings, number, sample_pixel, &remembering, &answer);
     return answer;
 }
 
@@ -100,7 +103,7 @@ static void store_rgb(float *const plane[3], size_t at, rgb value) {
 }
 
 static void render_pixel(rendering *r, int column, int row) {
-    pixel p = {r, column, row};
+    pixel p = {r, column, row, NULL};
     size_t at = (size_t)row * (size_t)r->picture->width + (size_t)column;
     graze_answer answer = estimate_pixel(&p, &r->trace);
     store_rgb(r->planes.value, at, answer.value);
@@ -137,7 +140,8 @@ static void sample_pilot(void *user, size_t index, int worker) {
     pilot *p = user;
     const picture_settings *s = p->rendering->picture;
     int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
-    pixel at = {p->rendering, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows)};
+    pixel at = {p->rendering, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
+                NULL};
     p->values[index] = estimate_pixel(&at, &p->trace).value;
 }
 

@@ -6,11 +6,13 @@
 
 #include "graze/trace.h"
 #include "scene/scene.h"
+#include "trace/path_memory.h"
 
 /* What one path needs of its surroundings. */
 typedef struct path_context {
     const graze_scene *scene;
     const graze_trace_settings *settings;
+    path_memory *memory; /* null where nothing is to be sampled */
 } path_context;
 
 /* Whether the strategy looks for lights at all, or leaves them to reflections. */

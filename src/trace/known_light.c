@@ -31,6 +31,9 @@ static bool has_one_role(const scene_light *light) {
     return !light->glow || light->glow_radius == 0;
 }
 
+/* In the same pixel, a light is no longer asked for that so many points saw in part. */
+#define MIXED_GIVEN_UP 4
+
 static geometry_visibility visibility(const graze_scene *scene, const vertex *v, int index) {
     const scene_light *light = &scene->lights[index];
     return geometry_sight_of(scene->geometry, &(geometry_sight){.point = v->point,
@@ -41,6 +44,24 @@ static geometry_visibility visibility(const graze_scene *scene, const vertex *v,
                                                                 .half_angle = light->half_angle});
 }
 
+/* What is known of a light, and kept for the other paths if this is their first point, too. */
+static path_memory_light look_at(const path *p, const vertex *v, int index, bool glossy) {
+    const graze_scene *scene = p->context->scene;
+    path_memory_light *kept = p->depth == 0 ? &p->context->memory->lights[index] : NULL;
+    if (kept && kept->kept)
+        return *kept;
+    path_memory_light found = {.times_mixed = kept ? kept->times_mixed : 0};
+    if (found.times_mixed < MIXED_GIVEN_UP)
+        found.seen = visibility(scene, v, index);
+    found.integrated = found.seen != GEOMETRY_BLOCKED &&
+                       unshadowed_light_at(scene, &v->shading, v->point, index, glossy, &found.whole);
+    found.times_mixed += found.seen == GEOMETRY_MIXED;
+    found.kept = p->context->memory->alike;
+    if (kept)
+        *kept = found;
+    return found;
+}
+
 void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, 0, p->depth > 0};
@@ -49,21 +70,20 @@ void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
         bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
-        unshadowed_light whole;
         if (light_probability(scene, receiver, i) == 0 || !has_one_role(light))
             continue;
-        geometry_visibility seen = visibility(scene, v, i);
-        if (seen == GEOMETRY_BLOCKED)
+        const path_memory_light found = look_at(p, v, i, glossy);
+        if (found.seen == GEOMETRY_BLOCKED)
             p->known.settled |= 1u << i;
-        if (seen == GEOMETRY_BLOCKED || !unshadowed_light_at(scene, &v->shading, v->point, i, glossy, &whole))
+        if (!found.integrated)
             continue;
         rgb diffuse = !ambient ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);
-        rgb reflectance = rgb_scale(whole.diffuse, diffuse);
+        rgb reflectance = rgb_scale(found.whole.diffuse, diffuse);
         if (glossy)
-            reflectance = rgb_add_scaled(reflectance, whole.glossy, v->shading.specular);
+            reflectance = rgb_add_scaled(reflectance, found.whole.glossy, v->shading.specular);
         rgb reflected = rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
         p->integrated = true;
-        if (seen == GEOMETRY_CLEAR) {
+        if (found.seen == GEOMETRY_CLEAR) {
             p->known.settled |= 1u << i;
             p->radiance = rgb_add(p->radiance, reflected);
             continue;

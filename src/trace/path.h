@@ -15,7 +15,7 @@ typedef struct path_control {
 } path_control;
 
 /* One for each of the first lights at the first point, and one for all lights at later points. */
-enum { PATH_FIRST_CONTROLS = 8, PATH_CONTROLS = PATH_FIRST_CONTROLS + 1 };
+enum { PATH_FIRST_CONTROLS = PATH_MEMORY_LIGHTS, PATH_CONTROLS = PATH_FIRST_CONTROLS + 1 };
 
 typedef struct path_sample {
     rgb radiance;

@@ -85,7 +85,7 @@ void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, 
     hit->point = ray->origin;
     if (!prepare(ray, &direction, &limit))
         return;
-    path_context context = {scene, settings};
+    path_context context = {scene, settings, NULL};
     path_hit found = path_cast(&context, ray->origin, direction, limit, -1);
     describe(scene, &found, hit);
 }
@@ -108,7 +108,8 @@ static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) 
 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,
                  graze_answer *answer, graze_hit *hit) {
-    request r = {.context = {scene, settings}, .origin = ray->origin};
+    path_memory known = {.alike = true};
+    request r = {.context = {scene, settings, &known}, .origin = ray->origin};
     double limit;
     *answer = (graze_answer){.converged = 1};
     if (hit) {

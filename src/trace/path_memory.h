@@ -1,0 +1,26 @@
+/* What the paths of one estimate need not find out again and again. */
+#ifndef TRACE_PATH_MEMORY_H
+#define TRACE_PATH_MEMORY_H
+
+#include "geometry/shaft.h"
+#include "trace/unshadowed.h"
+
+/* One for each of the first lights. */
+#define PATH_MEMORY_LIGHTS 8
+
+/* What is known of a light at the first point. */
+typedef struct path_memory_light {
+    geometry_visibility seen;
+    bool integrated; /* `whole` is known */
+    unshadowed_light whole;
+    bool kept;       /* the above is what the next path would find, too */
+    int times_mixed; /* how often it was in vain to ask whether the light is seen */
+} path_memory_light;
+
+/* Belongs to the estimate, whose paths come one after another, and begins as zeros but for `alike`. */
+typedef struct path_memory {
+    bool alike; /* all paths have the same first point */
+    path_memory_light lights[PATH_MEMORY_LIGHTS];
+} path_memory;
+
+#endif
