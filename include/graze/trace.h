@@ -93,7 +93,9 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  * error stated is therefore sometimes a little above the one asked for.
  *
  * What unshadowed lights throw directly on the first point that is no mirror is integrated rather than sampled
- * (graze/brdf_light.h), as far as the other half finds no shadows: without error, where there are none.
+ * (graze/brdf_light.h). A light that is found to be seen wholly from there, or not at all, is not sampled; where all
+ * are, and nothing else could be reflected, one path answers. Of other lights, what the samples find corrects the
+ * integral, which counts as far as the other half finds no shadows.
  *
  * The standard error is estimated from what the samples found. Light that none of them found, such as that which a
  * small lamp throws on a diffuse wall by way of a mirror, is in neither the value nor its error. */
