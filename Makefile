@@ -141,6 +141,11 @@ $(BUILD)/test/bench/brdf: test/bench/brdf.c $(call archives,brdf) $(BUILD)/flags
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,brdf) $(call libs,brdf) \
 	    $(if $(filter x86_64-%-gnu,$(shell $(CC) -dumpmachine)),-lmvec) $(LDFLAGS)
 
+# What rays cost in Embree alone and in src/geometry.
+$(BUILD)/test/bench/embree: test/bench/embree.c $(call archives,scene) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,scene) $(call libs,scene) $(LDFLAGS)
+
 # The long form of test/brdf/accuracy.c.
 $(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,brdf) $(call libs,brdf) -lmpfr -lgmp $(LDFLAGS)
