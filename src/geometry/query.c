@@ -51,9 +51,9 @@ typedef struct query {
     double end;   /* and where it leaves the scene or comes to its own end, a little behind */
     candidate nearest, nearest_front, nearest_shining;
     float limit; /* Embree's distance beyond which nothing matters */
-    miss misses[MISSES];
+    const miss *around; /* the miss that is being looked after */
     int miss_count;
-    const miss *around; /* the one that is being looked after */
+    miss misses[MISSES]; /* that many of them have been set, and no more is ever read */
 } query;
 
 /* The bound of single precision's errors, as a length of the scene. */
@@ -319,8 +319,6 @@ static bool clip(query *q) {
  * the ray may lead to the right one farther away: that is another miss, of larger reach. All are tested against the
  * true ray. */
 static void trace(query *q) {
-    embree_context_init(&q->context);
-    q->nearest = q->nearest_front = q->nearest_shining = (candidate){INFINITY, -1, false, NULL};
     cast(q);
     for (int i = 0; i < q->miss_count && !q->found_any; i++) {
         q->around = &q->misses[i];
@@ -344,16 +342,28 @@ static candidate visible(const query *q) {
     return q->nearest_front.distance <= last ? q->nearest_front : q->nearest;
 }
 
+/* All but `misses`, which a query seldom has: to clear them would take longer than many a query. */
+static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
+    embree_context_init(&q->context);
+    q->geometry = g;
+    q->origin = ray->origin;
+    q->direction = ray->direction;
+    q->far = ray->far;
+    q->from = ray->from;
+    q->target = -1;
+    q->any = q->found_any = false;
+    q->clear = 0;
+    q->nearest = q->nearest_front = q->nearest_shining = (candidate){INFINITY, -1, false, NULL};
+    q->around = NULL;
+    q->miss_count = 0;
+}
+
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
     hit->surface = -1;
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g,
-               .origin = ray->origin,
-               .direction = ray->direction,
-               .far = ray->far,
-               .from = ray->from,
-               .target = -1};
+    query q;
+    prepare(&q, g, ray);
     if (!clip(&q))
         return false;
     trace(&q);
@@ -379,14 +389,12 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
 bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g,
-               .origin = ray->origin,
-               .direction = ray->direction,
-               .far = ray->far + g->near,
-               .from = ray->from,
-               .target = target,
-               .any = true,
-               .clear = ray->far - g->near};
+    query q;
+    prepare(&q, g, ray);
+    q.far = ray->far + g->near;
+    q.clear = ray->far - g->near;
+    q.target = target;
+    q.any = true;
     if (!clip(&q))
         return false;
     trace(&q);

@@ -1,7 +1,9 @@
 /* What rays cost in Embree alone and in src/geometry: the same rays, one thread, nothing but asking.
  *
- * usage: embree SCENE RAYS: rays are those of gtrace -ff; from each hit, shadow rays go to a point of every light. Prints
- * millions of rays a second, the median of RUNS (5) rounds: Embree's own, on plain triangles and spheres, then ours. */
+ * usage: embree SCENE RAYS: rays are those of gtrace -ff; from each hit, shadow rays go to a point of every light.
+ * Prints millions of rays a second, the median of RUNS (5) rounds: Embree's own, on plain triangles and spheres, then
+ * ours. First hits alone, shadow rays alone, and all in the order in which a path asks, when what was hit is still in
+ * the cache. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +20,7 @@ enum { MOST_RUNS = 101 };
 typedef struct shadow_ray {
     geometry_ray ray;
     int target;
+    size_t first; /* whose hit it starts at */
 } shadow_ray;
 
 typedef struct bench {
@@ -83,7 +86,8 @@ static void make_shadows(bench *b) {
             if (s.density > 0 && vec3_dot(s.direction, normal) > 0)
                 b->shadows[b->shadow_count++] = (shadow_ray){
                     {.origin = hit.point, .direction = s.direction, .far = s.distance, .from = hit.surface},
-                    scene->lights[k].surface};
+                    scene->lights[k].surface,
+                    i};
         }
     }
 }
@@ -150,43 +154,41 @@ static struct RTCRay plain_ray(const geometry_ray *r, double near, double far) {
                            .mask = UINT32_MAX};
 }
 
-static size_t embree_first(const bench *b) {
-    size_t hits = 0;
+static size_t embree_first(const bench *b, size_t i) {
     embree_context context;
     embree_context_init(&context);
-    for (size_t i = 0; i < b->count; i++) {
-        struct RTCRayHit r = {.ray = plain_ray(&b->rays[i], 0, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-        embree_intersect(b->plain, &context, &r);
-        hits += r.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-    }
-    return hits;
+    struct RTCRayHit r = {.ray = plain_ray(&b->rays[i], 0, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    embree_intersect(b->plain, &context, &r);
+    return r.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-static size_t embree_shadow(const bench *b) {
-    size_t hits = 0;
+static size_t embree_shadow(const bench *b, size_t i) {
     embree_context context;
     embree_context_init(&context);
-    for (size_t i = 0; i < b->shadow_count; i++) {
-        struct RTCRay r = plain_ray(&b->shadows[i].ray, 1e-4, b->shadows[i].ray.far * (1 - 1e-4));
-        embree_occluded(b->plain, &context, &r);
-        hits += r.tfar < 0;
-    }
-    return hits;
+    struct RTCRay r = plain_ray(&b->shadows[i].ray, 1e-4, b->shadows[i].ray.far * (1 - 1e-4));
+    embree_occluded(b->plain, &context, &r);
+    return r.tfar < 0;
 }
 
-static size_t our_first(const bench *b) {
-    size_t hits = 0;
+static size_t our_first(const bench *b, size_t i) {
+    geometry_hit hit;
+    return geometry_intersect(b->scene->geometry, &b->rays[i], &hit);
+}
+
+static size_t our_shadow(const bench *b, size_t i) {
+    return geometry_occluded(b->scene->geometry, &b->shadows[i].ray, b->shadows[i].target);
+}
+
+typedef size_t ask(const bench *, size_t);
+
+/* Asks first hits, shadow rays, or both. */
+static size_t ask_all(const bench *b, ask *first, ask *shadow) {
+    size_t hits = 0, next = 0;
     for (size_t i = 0; i < b->count; i++) {
-        geometry_hit hit;
-        hits += geometry_intersect(b->scene->geometry, &b->rays[i], &hit);
+        hits += first ? first(b, i) : 0;
+        for (; shadow && next < b->shadow_count && b->shadows[next].first == i; next++)
+            hits += shadow(b, next);
     }
-    return hits;
-}
-
-static size_t our_shadow(const bench *b) {
-    size_t hits = 0;
-    for (size_t i = 0; i < b->shadow_count; i++)
-        hits += geometry_occluded(b->scene->geometry, &b->shadows[i].ray, b->shadows[i].target);
     return hits;
 }
 
@@ -198,12 +200,10 @@ static int by_size(const void *a, const void *b) {
 int main(int argc, char **argv) {
     static const struct {
         const char *name;
-        size_t (*ask)(const bench *);
-        bool shadow;
-    } questions[] = {{"embree first", embree_first, false},
-                     {"geometry first", our_first, false},
-                     {"embree shadow", embree_shadow, true},
-                     {"geometry shadow", our_shadow, true}};
+        ask *first, *shadow;
+    } questions[] = {{"embree first", embree_first, NULL},        {"geometry first", our_first, NULL},
+                     {"embree shadow", NULL, embree_shadow},      {"geometry shadow", NULL, our_shadow},
+                     {"embree all", embree_first, embree_shadow}, {"geometry all", our_first, our_shadow}};
     enum { QUESTIONS = sizeof questions / sizeof *questions };
     bench b = {0};
     if (argc != 3) {
@@ -225,11 +225,11 @@ int main(int argc, char **argv) {
     for (int run = 0; run < runs; run++)
         for (int q = 0; q < QUESTIONS; q++) {
             double start = seconds();
-            hits[q] = questions[q].ask(&b);
+            hits[q] = ask_all(&b, questions[q].first, questions[q].shadow);
             times[q][run] = seconds() - start;
         }
     for (int q = 0; q < QUESTIONS; q++) {
-        size_t count = questions[q].shadow ? b.shadow_count : b.count;
+        size_t count = (questions[q].first ? b.count : 0) + (questions[q].shadow ? b.shadow_count : 0);
         qsort(times[q], (size_t)runs, sizeof **times, by_size);
         printf("%-16s %8zu rays %8zu hits %8.3f million/s\n", questions[q].name, count, hits[q],
                (double)count / times[q][runs / 2] / 1e6);
