@@ -26,6 +26,12 @@ static bool has_one_role(const scene_light *light) {
     return !light->glow || light->glow_radius == 0;
 }
 
+/* Makes the path have so many controls, new ones being 0. */
+static void begin_controls(path *p, int count) {
+    for (; p->control_count < count; p->control_count++)
+        p->controls[p->control_count] = (path_control){{0, 0, 0}, 0, 0};
+}
+
 void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, p->depth > 0};
@@ -43,10 +49,10 @@ void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
         if (glossy)
             reflectance = rgb_add_scaled(reflectance, whole.glossy, v->shading.specular);
         p->known.lights |= 1u << i;
+        begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
         path_control *control = control_of(p, i);
         rgb reflected = rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
         control->difference = rgb_add(control->difference, reflected);
-        p->control_count = p->known.shared ? PATH_CONTROLS : i + 1 > p->control_count ? i + 1 : p->control_count;
     }
 }
 

@@ -12,61 +12,74 @@
 #include "trace/lobes.h"
 #include "trace/vertex.h"
 
-/* Gathers light at a vertex and goes on from there until the path ends. */
-static void follow(path *p, vertex v) {
+/* Gathers light at a vertex and goes on from there until the path ends; `v` becomes the last vertex. */
+static void follow(path *p, vertex *v) {
     const path_context *context = p->context;
     for (;;) {
         if (!path_bounces_left(p))
             p->radiance = rgb_add(
-                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
-        lobe_choice choice = lobes_choose(p, &v);
-        light_receiver receiver = direct_light_receiver(p, &v);
+                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v->ambient, context->settings->ambient_value)));
+        lobe_choice choice = lobes_choose(p, v);
+        light_receiver receiver = direct_light_receiver(p, v);
         p->known.lights = 0;
         if (receiver.candidates > 0) {
-            known_light_add(p, &v, &receiver);
-            direct_light_add(p, &v, &receiver, choice);
+            known_light_add(p, v, &receiver);
+            direct_light_add(p, v, &receiver, choice);
         }
         vec3 direction;
-        if (!lobes_reflect(p, &v, &receiver, choice, &direction))
+        if (!lobes_reflect(p, v, &receiver, choice, &direction))
             return;
-        path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
+        path_hit hit = path_cast(context, v->point, direction, GEOMETRY_FAR, v->surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         if (p->known.lights)
-            known_light_subtract_reflected(p, &v, &hit, found);
-        if (!vertex_at_hit(p, &hit, &v))
+            known_light_subtract_reflected(p, v, &hit, found);
+        if (!vertex_at_hit(p, &hit, v))
             return;
     }
 }
 
-static path path_start(const path_context *context, sampler *points) {
-    return (path){.context = context, .sampler = points, .throughput = {1, 1, 1}};
+/* Sets all but what is written before it is read: the last reflection, and controls beyond their number. */
+static void path_start(path *p, const path_context *context, sampler *points) {
+    p->context = context;
+    p->sampler = points;
+    p->throughput = (rgb){1, 1, 1};
+    p->radiance = (rgb){0, 0, 0};
+    p->ambient_depth = p->depth = 0;
+    p->scattered = p->searching = false;
+    p->last.lobe = GRAZE_LOBE_NONE;
+    p->known = (known_lights){0, false};
+    p->control_count = 0;
 }
 
 static path_sample path_end(const path *p, uint32_t first_group) {
-    path_sample sample = {.radiance = p->radiance,
-                          .control_count = p->control_count,
-                          .noisy = p->sampler->group != first_group,
-                          .searching = p->searching};
+    path_sample sample;
+    sample.radiance = p->radiance;
+    sample.control_count = p->control_count;
+    sample.noisy = p->sampler->group != first_group;
+    sample.searching = p->searching;
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
     return sample;
 }
 
 path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
-    path p = path_start(context, points);
+    path p;
+    path_start(&p, context, points);
     uint32_t first_group = points->group;
     vertex v;
     if (first->light >= 0)
         p.radiance = emission_found(&p, first);
     if (vertex_at_hit(&p, first, &v))
-        follow(&p, v);
+        follow(&p, &v);
     return path_end(&p, first_group);
 }
 
 path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
-    path p = path_start(context, points);
+    path p;
+    path_start(&p, context, points);
     uint32_t first_group = points->group;
-    follow(&p, vertex_of_sensor(point, normal));
+    vertex v = vertex_of_sensor(point, normal);
+    follow(&p, &v);
     return path_end(&p, first_group);
 }

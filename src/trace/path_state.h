@@ -44,7 +44,7 @@ typedef struct path {
     bool searching;    /* whether one may meet lights that no light sample finds */
     scattering last;
     known_lights known;
-    path_control controls[PATH_CONTROLS];
+    path_control controls[PATH_CONTROLS]; /* so many are set: */
     int control_count;
 } path;
 
