@@ -145,12 +145,40 @@ static int edge_side(point2 a, point2 b) {
     return (p > q) - (p < q);
 }
 
-static bool line_meets_triangle(const query *q, const geometry_triangle *triangle) {
-    point2 a = project(q, geometry_corner(q->geometry, triangle, 0));
-    point2 b = project(q, geometry_corner(q->geometry, triangle, 1));
-    point2 c = project(q, geometry_corner(q->geometry, triangle, 2));
-    int ab = edge_side(a, b), bc = edge_side(b, c), ca = edge_side(c, a);
+/* A triangle's corners as seen along the ray, which passes the origin. */
+typedef struct view2 {
+    point2 a, b, c;
+} view2;
+
+static view2 project_triangle(const query *q, const geometry_triangle *triangle) {
+    return (view2){project(q, geometry_corner(q->geometry, triangle, 0)),
+                   project(q, geometry_corner(q->geometry, triangle, 1)),
+                   project(q, geometry_corner(q->geometry, triangle, 2))};
+}
+
+static bool is_met(const view2 *v) {
+    int ab = edge_side(v->a, v->b), bc = edge_side(v->b, v->c), ca = edge_side(v->c, v->a);
     return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+static bool line_meets_triangle(const query *q, const geometry_triangle *triangle) {
+    view2 v = project_triangle(q, triangle);
+    return is_met(&v);
+}
+
+static double distance2_to_edge(point2 a, point2 b) {
+    double x = b.x - a.x, y = b.y - a.y, length2 = x * x + y * y;
+    double along = length2 > 0 ? -(a.x * x + a.y * y) / length2 : 0;
+    along = double_min(double_max(along, 0), 1);
+    double dx = a.x + along * x, dy = a.y + along * y;
+    return dx * dx + dy * dy;
+}
+
+/* How far off the ray passes a triangle that it does not meet. The plane of projection is oblique: what it shows is at
+ * most sqrt(3) times too large. */
+static double passing_distance(const view2 *v) {
+    double ab = distance2_to_edge(v->a, v->b), bc = distance2_to_edge(v->b, v->c), ca = distance2_to_edge(v->c, v->a);
+    return sqrt(double_min(ab, double_min(bc, ca)) / 3);
 }
 
 /* Whether the exact test can only confirm Embree's finding. */
@@ -166,8 +194,13 @@ static bool offer_met(query *q, const geometry_triangle *triangle, double slope)
            offer(q, (candidate){distance, triangle->surface, triangle->shines, triangle}, slope);
 }
 
+/* How far from the true ray Embree may be wrong about a triangle at that distance. */
+static double single_error(const query *q, const geometry_triangle *triangle, double distance) {
+    return triangle->error / q->geometry->scale + GEOMETRY_UNIT_ERROR * (distance - q->start);
+}
+
 static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
-    double error = triangle->error / q->geometry->scale + GEOMETRY_UNIT_ERROR * (distance - q->start);
+    double error = single_error(q, triangle, distance);
     miss m = {distance, error, error / fmax(fabs(slope), DBL_EPSILON)};
     if (distance + m.reach <= 0)
         return;
@@ -193,7 +226,7 @@ static bool offer_triangle(query *q, const struct RTCRay *ray, const struct RTCH
     return false;
 }
 
-/* Offers a triangle near a miss. */
+/* Offers a triangle near a miss. One that the ray passes far off has nothing to do with it. */
 static bool offer_neighbour(struct RTCPointQueryFunctionArguments *args) {
     query *q = args->userPtr;
     /* Triangles are attached first. */
@@ -203,9 +236,10 @@ static bool offer_neighbour(struct RTCPointQueryFunctionArguments *args) {
     if (is_excepted(q, triangle))
         return false;
     double slope = vec3_dot(triangle->normal, q->direction);
-    if (line_meets_triangle(q, triangle))
+    view2 v = project_triangle(q, triangle);
+    if (is_met(&v))
         offer_met(q, triangle, slope);
-    else
+    else if (passing_distance(&v) <= 2 * single_error(q, triangle, q->around->distance))
         note_miss(q, triangle, q->around->distance, slope);
     return false;
 }
