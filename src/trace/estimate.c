@@ -25,15 +25,13 @@ enum { HALVES = 2, IN_HALF = ESTIMATE_REPLICATES / HALVES };
  * and neither the mean nor its error is led astray: an answer that stopped when it looked good enough to itself would
  * be biased towards what looks good. */
 typedef struct half {
-    uint64_t seed, stream;
-    int number; /* of the half */
+    uint64_t key[IN_HALF];
+    rgb sum[IN_HALF];
+    path_control controls[PATH_CONTROLS][IN_HALF]; /* sums */
+    path_control totals[PATH_CONTROLS];
+    int control_count;
     uint32_t taken;     /* of all replicates together */
     estimate_luck luck; /* the worst of any sample */
-    int control_count;
-    path_control totals[PATH_CONTROLS]; /* so many of them are set: the controls' sums */
-    uint64_t key[IN_HALF];              /* of replicates that are used, as the rest */
-    rgb sum[IN_HALF];
-    path_control controls[PATH_CONTROLS][IN_HALF];
 } half;
 
 static uint32_t replicate_count(const half *h, int i) {
@@ -135,48 +133,17 @@ static void add_control(path_control *sum, const path_control *control) {
     sum->whole += control->whole;
 }
 
-static const path_control no_control = {{0, 0, 0}, 0, 0};
-
-/* What replicates and controls hold is set as they begin: many an estimate has one sample. */
-static void begin_half(half *h, int number, uint64_t seed, uint64_t stream) {
-    h->seed = seed;
-    h->stream = stream;
-    h->number = number;
-    h->taken = 0;
-    h->luck = ESTIMATE_EXACT;
-    h->control_count = 0;
-}
-
-static void begin_replicate(half *h, int i) {
-    h->key[i] = sampler_key(h->seed, h->stream, (uint32_t)(i * HALVES + h->number));
-    h->sum[i] = rgb_gray(0);
-    for (int k = 0; k < h->control_count; k++)
-        h->controls[k][i] = no_control;
-}
-
-/* Makes at least so many controls, in the replicates that have begun. */
-static void begin_controls(half *h, int count) {
-    for (; h->control_count < count; h->control_count++) {
-        int k = h->control_count;
-        h->totals[k] = no_control;
-        for (int i = 0; i < IN_HALF && i <= (int)h->taken; i++)
-            h->controls[k][i] = no_control;
-    }
-}
-
 static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     int i = (int)(h->taken % IN_HALF);
-    if (h->taken < IN_HALF)
-        begin_replicate(h, i);
     sampler points = sampler_start(h->key[i], h->taken / IN_HALF);
     estimate_luck luck = ESTIMATE_NOISY;
     path_sample taken = sample(user, &points, &luck);
     h->sum[i] = rgb_add(h->sum[i], taken.radiance);
-    begin_controls(h, taken.control_count);
     for (int k = 0; k < taken.control_count; k++) {
         add_control(&h->controls[k][i], &taken.controls[k]);
         add_control(&h->totals[k], &taken.controls[k]);
     }
+    h->control_count = taken.control_count > h->control_count ? taken.control_count : h->control_count;
     h->luck = luck > h->luck ? luck : h->luck;
     h->taken++;
     return luck;
@@ -241,9 +208,9 @@ static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_
 
 void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
               graze_answer *answer) {
-    half halves[HALVES];
-    for (int i = 0; i < HALVES; i++)
-        begin_half(&halves[i], i, s->seed, stream);
+    half halves[HALVES] = {{.taken = 0}, {.taken = 0}};
+    for (int i = 0; i < ESTIMATE_REPLICATES; i++)
+        halves[i % HALVES].key[i / HALVES] = sampler_key(s->seed, stream, (uint32_t)i);
     *answer = (graze_answer){.converged = 1};
     if (take_one(&halves[0], sample, user) == ESTIMATE_EXACT) {
         answer->value = halves[0].sum[0];

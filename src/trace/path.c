@@ -12,29 +12,29 @@
 #include "trace/lobes.h"
 #include "trace/vertex.h"
 
-/* Gathers light at a vertex and goes on from there until the path ends; `v` becomes the last vertex. */
-static void follow(path *p, vertex *v) {
+/* Gathers light at a vertex and goes on from there until the path ends. */
+static void follow(path *p, vertex v) {
     const path_context *context = p->context;
     for (;;) {
         if (!path_bounces_left(p))
             p->radiance = rgb_add(
-                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v->ambient, context->settings->ambient_value)));
-        lobe_choice choice = lobes_choose(p, v);
-        light_receiver receiver = direct_light_receiver(p, v);
+                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
+        lobe_choice choice = lobes_choose(p, &v);
+        light_receiver receiver = direct_light_receiver(p, &v);
         p->known.lights = 0;
         if (receiver.candidates > 0) {
-            known_light_add(p, v, &receiver);
-            direct_light_add(p, v, &receiver, choice);
+            known_light_add(p, &v, &receiver);
+            direct_light_add(p, &v, &receiver, choice);
         }
         vec3 direction;
-        if (!lobes_reflect(p, v, &receiver, choice, &direction))
+        if (!lobes_reflect(p, &v, &receiver, choice, &direction))
             return;
-        path_hit hit = path_cast(context, v->point, direction, GEOMETRY_FAR, v->surface);
+        path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         if (p->known.lights)
-            known_light_subtract_reflected(p, v, &hit, found);
-        if (!vertex_at_hit(p, &hit, v))
+            known_light_subtract_reflected(p, &v, &hit, found);
+        if (!vertex_at_hit(p, &hit, &v))
             return;
     }
 }
@@ -71,7 +71,7 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     if (first->light >= 0)
         p.radiance = emission_found(&p, first);
     if (vertex_at_hit(&p, first, &v))
-        follow(&p, &v);
+        follow(&p, v);
     return path_end(&p, first_group);
 }
 
@@ -79,7 +79,6 @@ path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal
     path p;
     path_start(&p, context, points);
     uint32_t first_group = points->group;
-    vertex v = vertex_of_sensor(point, normal);
-    follow(&p, &v);
+    follow(&p, vertex_of_sensor(point, normal));
     return path_end(&p, first_group);
 }
