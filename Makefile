@@ -219,10 +219,11 @@ BENCH := brdf records rays pictures
 bench:
 	@scripts/install-dependencies build test $(if $(filter pictures,$(BENCH)),figures)
 	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)
-	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf
+	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf $(BUILD)/test/bench/embree
 	@for part in $(BENCH); do \
 	    if [ $$part = brdf ]; then $(BUILD)/test/bench/brdf; \
-	    else BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) build/peer/bin/python test/bench/$$part.py; fi || exit; \
+	    else BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) GRAZE_BENCH_EMBREE=$(abspath $(BUILD)/test/bench/embree) \
+	        build/peer/bin/python test/bench/$$part.py; fi || exit; \
 	done
 
 # fuzz: looks for inputs that break the readers, FUZZ_SECONDS (60) each, built in build-fuzz, where finds are left
