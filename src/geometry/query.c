@@ -356,22 +356,20 @@ static vec3 embree_place(const query *q, double distance) {
 
 /* Sends Embree along the ray. */
 static void cast(query *q) {
-    const geometry *g = q->geometry;
     vec3 o = embree_place(q, q->start);
-    struct RTCRay ray = {.org_x = (float)o.x,
-                         .org_y = (float)o.y,
-                         .org_z = (float)o.z,
-                         .dir_x = (float)q->direction.x,
-                         .dir_y = (float)q->direction.y,
-                         .dir_z = (float)q->direction.z,
-                         .tfar = q->limit,
-                         .mask = UINT32_MAX};
-    if (q->any) {
-        embree_occluded(g->scene, &q->context, &ray);
-    } else {
-        struct RTCRayHit ray_hit = {.ray = ray, .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-        embree_intersect(g->scene, &q->context, &ray_hit);
-    }
+    struct RTCRayHit ray = {.ray = {.org_x = (float)o.x,
+                                    .org_y = (float)o.y,
+                                    .org_z = (float)o.z,
+                                    .dir_x = (float)q->direction.x,
+                                    .dir_y = (float)q->direction.y,
+                                    .dir_z = (float)q->direction.z,
+                                    .tfar = q->limit,
+                                    .mask = UINT32_MAX},
+                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    if (q->any)
+        embree_occluded(q->geometry->scene, &q->context, &ray.ray);
+    else
+        embree_intersect(q->geometry->scene, &q->context, &ray);
 }
 
 /* Tests all triangles about a miss. */
@@ -427,10 +425,12 @@ static bool is_ray(const geometry_ray *ray) {
 
 /* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray; and of those that do,
  * such as a ceiling and a lamp in its plane, the one that shines. */
-static candidate visible(const query *q) {
-    if (candidates_coincide(q, &q->nearest, &q->nearest_shining))
-        return q->nearest_shining;
-    return candidates_coincide(q, &q->nearest, &q->nearest_front) ? q->nearest_front : q->nearest;
+static const candidate *visible(const query *q) {
+    const candidate *nearest = &q->nearest;
+    if (candidates_coincide(q, nearest, &q->nearest_shining))
+        return &q->nearest_shining;
+    bool covered = nearest->slope >= 0 && candidates_coincide(q, nearest, &q->nearest_front);
+    return covered ? &q->nearest_front : nearest;
 }
 
 static const candidate nothing = {.distance = INFINITY, .surface = -1};
@@ -462,21 +462,21 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
     if (!clip(&q))
         return false;
     trace(&q);
-    candidate found = visible(&q);
-    if (found.surface < 0)
+    const candidate *found = visible(&q);
+    if (found->surface < 0)
         return false;
-    hit->surface = found.surface;
-    hit->distance = found.distance;
-    hit->point = vec3_add_scaled(ray->origin, found.distance, ray->direction);
-    const geometry_triangle *triangle = found.triangle;
+    hit->surface = found->surface;
+    hit->distance = found->distance;
+    hit->point = vec3_add_scaled(ray->origin, found->distance, ray->direction);
+    const geometry_triangle *triangle = found->triangle;
     if (triangle) {
         /* shape_pull() without another look into memory */
         double height = vec3_dot(triangle->normal, vec3_subtract(hit->point, triangle->center));
         hit->point = vec3_add_scaled(hit->point, -height, triangle->normal);
         hit->normal = triangle->normal;
     } else {
-        hit->point = shape_pull(&g->shapes[found.surface], hit->point);
-        hit->normal = shape_normal(&g->shapes[found.surface], hit->point);
+        hit->point = shape_pull(&g->shapes[found->surface], hit->point);
+        hit->normal = shape_normal(&g->shapes[found->surface], hit->point);
     }
     return true;
 }
