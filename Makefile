@@ -141,6 +141,11 @@ $(BUILD)/test/bench/brdf: test/bench/brdf.c $(call archives,brdf) $(BUILD)/flags
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,brdf) $(call libs,brdf) \
 	    $(if $(filter x86_64-%-gnu,$(shell $(CC) -dumpmachine)),-lmvec) $(LDFLAGS)
 
+# What rays cost in Embree alone and in src/geometry.
+$(BUILD)/test/bench/embree: test/bench/embree.c $(call archives,scene) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,scene) $(call libs,scene) $(LDFLAGS)
+
 # The long form of test/brdf/accuracy.c.
 $(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,brdf) $(call libs,brdf) -lmpfr -lgmp $(LDFLAGS)
@@ -214,10 +219,11 @@ BENCH := brdf records rays pictures
 bench:
 	@scripts/install-dependencies build test $(if $(filter pictures,$(BENCH)),figures)
 	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)
-	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf
+	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf $(BUILD)/test/bench/embree
 	@for part in $(BENCH); do \
 	    if [ $$part = brdf ]; then $(BUILD)/test/bench/brdf; \
-	    else BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) build/peer/bin/python test/bench/$$part.py; fi || exit; \
+	    else BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) GRAZE_BENCH_EMBREE=$(abspath $(BUILD)/test/bench/embree) \
+	        build/peer/bin/python test/bench/$$part.py; fi || exit; \
 	done
 
 # fuzz: looks for inputs that break the readers, FUZZ_SECONDS (60) each, built in build-fuzz, where finds are left

@@ -42,8 +42,16 @@ static inline vec3 vec3_normalize(vec3 a) {
     double length = vec3_length(a);
     return length > 0 ? vec3_scale(1 / length, a) : (vec3){0, 0, 0};
 }
+/* The larger and the smaller of two numbers, of which `b` counts where one is not a number: one instruction, where
+ * fmax and fmin are calls. */
+static inline double double_max(double a, double b) {
+    return a > b ? a : b;
+}
+static inline double double_min(double a, double b) {
+    return a < b ? a : b;
+}
 static inline double vec3_max_abs(vec3 a) {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    return double_max(fabs(a.x), double_max(fabs(a.y), double_max(fabs(a.z), 0)));
 }
 /* |a| for components of any finite size. */
 static inline double vec3_safe_length(vec3 a) {
@@ -91,7 +99,7 @@ static inline rgb rgb_add_scaled(rgb a, double s, rgb b) {
     return (rgb){a.r + s * b.r, a.g + s * b.g, a.b + s * b.b};
 }
 static inline double rgb_max(rgb a) {
-    return fmax(a.r, fmax(a.g, a.b));
+    return double_max(a.r, double_max(a.g, a.b));
 }
 static inline int rgb_is_black(rgb a) {
     return a.r == 0 && a.g == 0 && a.b == 0;

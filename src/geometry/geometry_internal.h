@@ -2,6 +2,8 @@
 #ifndef GEOMETRY_GEOMETRY_INTERNAL_H
 #define GEOMETRY_GEOMETRY_INTERNAL_H
 
+#include <float.h>
+
 #include "geometry/embree.h"
 #include "geometry/geometry.h"
 #include "geometry/shaft_tree.h"
@@ -19,6 +21,24 @@
  * neighbours that overlap by too little, and lie above one another by a rounding, oblique rays would slip through. */
 #define GEOMETRY_BORDER       0x1p-18
 #define GEOMETRY_BORDER_LEAST 0x1p-22
+
+/* A surface goes through a point where it is no farther from it than this times the coordinates of both: the roundings
+ * of a point computed on it, and of the distance. */
+#define GEOMETRY_ON_SURFACE (16 * DBL_EPSILON)
+/* Surfaces that are meant to coincide differ by what writing them down has cost, in proportion to their coordinates:
+ * with 12 digits, as Radiance's xform does, by GEOMETRY_DESCRIBED (half a digit in each of three coordinates of two
+ * surfaces, and twice that where the larger goes beyond the smaller); in single precision by GEOMETRY_SINGLE, but that
+ * counts only up to Radiance's own tolerance, its GEOMETRY_FTINY. */
+#define GEOMETRY_DESCRIBED 0x1p-34
+#define GEOMETRY_SINGLE    0x1p-22
+#define GEOMETRY_FTINY     1e-6
+
+/* How far apart surfaces of such coordinates may be found from an origin of such coordinates, that are meant to
+ * coincide. */
+static inline double geometry_coincidence(double coordinates, double origin) {
+    return double_max(GEOMETRY_DESCRIBED * coordinates, double_min(GEOMETRY_SINGLE * coordinates, GEOMETRY_FTINY)) +
+           GEOMETRY_ON_SURFACE * origin;
+}
 
 /* What the exact test of a triangle begins with, in one cache line. */
 typedef struct geometry_triangle {
@@ -41,10 +61,11 @@ struct geometry {
     vec3 center;
     double radius;                /* around the center; holds all */
     double scale;                 /* a power of two that makes the radius at most 1 */
-    double near;                  /* crossings at most this far from a ray's origin are at its origin */
     geometry_triangle *triangles; /* by Embree's primitive numbers; aligned to cache lines */
     size_t triangle_count;
-    int *curved; /* the surfaces that are no polygons, by Embree's primitive numbers */
+    double *reach;        /* each surface's largest coordinate */
+    double largest_reach; /* of all */
+    int *curved;          /* the surfaces that are no polygons, by Embree's primitive numbers */
     size_t curved_count;
     shaft_tree sights; /* without nodes unless prepared (geometry/shaft.h) */
 };

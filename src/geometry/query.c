@@ -18,14 +18,17 @@
 /* By so many errors of single precision Embree's rays are longer at both ends. */
 #define ENDS 64
 
-/* A surface goes through a point where it is no farther from it than this times the scene's coordinates: the roundings
- * of a point computed on it. */
-#define ON_SURFACE (16 * DBL_EPSILON)
-/* Sine of the angle up to which two surfaces lie on one another. */
-#define PARALLEL 1e-6
+/* The sine of the angle up to which they may be turned against each other: where they are as close as double precision
+ * tells, small ones that are far from the origin may be, by more. */
+#define PARALLEL         1e-6
+#define PARALLEL_TOUCHES 1e-4
+/* An origin that is given from outside is as good as its first digits. */
+#define GIVEN_ORIGIN 1e-6
 
 typedef struct candidate {
     double distance;
+    vec3 normal;
+    double slope; /* cosine between ray and normal */
     int surface;
     bool shines;
     const geometry_triangle *triangle; /* null where the surface is curved */
@@ -42,18 +45,20 @@ typedef struct query {
     embree_context context; /* first, since Embree hands on its address */
     const geometry *geometry;
     vec3 origin, direction;
-    double far; /* crossings beyond are none */
+    double size;                 /* the origin's largest coordinate */
+    double at_once;              /* crossings up to here are at the origin */
+    double farthest_coincidence; /* how far apart any surfaces may be found that are meant to coincide */
+    double far; /* crossings beyond are none; where `any` is asked, but for what coincides with the target */
     int from, target;
     bool any; /* whether something blocks the ray is all that is asked */
     bool found_any;
-    double clear; /* crossings beyond coincide with the ray's end, where `any` is asked */
     double start; /* distance along the ray of Embree's origin: where it enters the scene, a little before */
     double end;   /* and where it leaves the scene or comes to its own end, a little behind */
     candidate nearest, nearest_front, nearest_shining;
-    float limit; /* Embree's distance beyond which nothing matters */
-    miss misses[MISSES];
+    float limit;        /* Embree's distance beyond which nothing matters */
+    const miss *around; /* the miss that is being looked after */
     int miss_count;
-    const miss *around; /* the one that is being looked after */
+    miss misses[MISSES]; /* that many of them have been set, and no more is ever read */
 } query;
 
 /* The bound of single precision's errors, as a length of the scene. */
@@ -61,10 +66,35 @@ static double float_error(const query *q) {
     return GEOMETRY_FLOAT_ERROR / q->geometry->scale;
 }
 
+/* How far apart surfaces of such coordinates may be found that are meant to coincide. */
+static double coincidence(const query *q, double coordinates) {
+    return geometry_coincidence(coordinates, q->size);
+}
+
+/* The larger of two surfaces' coordinates. */
+static double reach_of(const query *q, int a, int b) {
+    return double_max(q->geometry->reach[a], q->geometry->reach[b]);
+}
+
+/* Whether surfaces that are so far apart, with these coordinates and normals, are meant to coincide. */
+static bool coincide(const query *q, double apart, double coordinates, vec3 normal, vec3 other) {
+    if (apart > coincidence(q, coordinates))
+        return false;
+    bool touches = apart <= GEOMETRY_DESCRIBED * coordinates + GEOMETRY_ON_SURFACE * q->size;
+    return vec3_length(vec3_cross(normal, other)) <= (touches ? PARALLEL_TOUCHES : PARALLEL);
+}
+
+static bool candidates_coincide(const query *q, const candidate *a, const candidate *b) {
+    if (a->surface < 0 || b->surface < 0)
+        return false;
+    double apart = fabs((a->distance - b->distance) * a->slope);
+    return coincide(q, apart, reach_of(q, a->surface, b->surface), a->normal, b->normal);
+}
+
 /* Embree's own distance at which to stop looking when a surface is met at `t`, under a cosine of `slope`: behind what
  * it takes for the distance of surfaces that coincide with this one. */
 static float embree_limit(const query *q, double t, double slope) {
-    double limit = t + float_error(q) / fabs(slope) + q->geometry->near;
+    double limit = t + (float_error(q) + q->farthest_coincidence) / fabs(slope);
     return (float)(((limit < q->end ? limit : q->end) - q->start) * q->geometry->scale);
 }
 
@@ -75,52 +105,69 @@ static bool is_before(const candidate *a, const candidate *b) {
 /* Of shining surfaces that coincide the last one is hit, whichever of them roundings make the nearest: so that
  * blocks() can tell. */
 static bool outshines(const query *q, const candidate *a, const candidate *b) {
-    double ahead = b->distance - a->distance, near = q->geometry->near;
-    return ahead > near || (ahead >= -near && a->surface > b->surface);
+    return candidates_coincide(q, a, b) ? a->surface > b->surface : a->distance < b->distance;
+}
+
+/* Whether a crossing close to the end of a shadow ray coincides with the target there. */
+static bool is_at_target(const query *q, const candidate *c) {
+    double apart = fabs((q->far - c->distance) * c->slope);
+    if (q->target < 0)
+        return apart <= coincidence(q, q->geometry->reach[c->surface]);
+    vec3 end = vec3_add_scaled(q->origin, q->far, q->direction);
+    vec3 normal = shape_normal(&q->geometry->shapes[q->target], end);
+    return coincide(q, apart, reach_of(q, c->surface, q->target), c->normal, normal);
 }
 
 /* Whether a crossing keeps the ray from its end. What coincides with the target does not, unless it is what
  * geometry_intersect would find there. */
-static bool blocks(const query *q, const candidate *c, double slope) {
-    if (c->distance <= q->clear)
-        return true;
-    if (q->target < 0 || !c->shines || slope >= 0)
+static bool blocks(const query *q, const candidate *c) {
+    const geometry *g = q->geometry;
+    double ahead = q->far - c->distance;
+    if (fabs(ahead * c->slope) > q->farthest_coincidence || !is_at_target(q, c))
+        return ahead >= 0;
+    if (q->target < 0 || !c->shines || c->slope >= 0)
         return false;
-    return !q->geometry->shapes[q->target].shines || c->surface > q->target;
+    return !g->shapes[q->target].shines || c->surface > q->target;
 }
 
-/* Takes a crossing into account, `slope` being the cosine between ray and normal; true where that shortens the search.
- */
-static bool offer(query *q, candidate c, double slope) {
+/* Takes a crossing into account; true where that shortens the search. */
+static bool offer(query *q, candidate c) {
     if (q->any) {
-        q->found_any = q->found_any || blocks(q, &c, slope);
+        q->found_any = q->found_any || blocks(q, &c);
         return q->found_any;
     }
-    if (slope < 0 && is_before(&c, &q->nearest_front))
+    bool front = c.slope < 0;
+    if (front && is_before(&c, &q->nearest_front))
         q->nearest_front = c;
-    if (slope < 0 && c.shines && outshines(q, &c, &q->nearest_shining))
+    if (front && c.shines && outshines(q, &c, &q->nearest_shining))
         q->nearest_shining = c;
     if (!is_before(&c, &q->nearest))
         return false;
     q->nearest = c;
-    q->limit = embree_limit(q, c.distance, slope);
+    q->limit = embree_limit(q, c.distance, c.slope);
     return true;
 }
 
-/* Whether a crossing close to the ray's origin is at its origin. `slope`: cosine between the ray and the normal there.
- * A surface that the origin lies on is not hit, and within Radiance's distance neither is one that lies on the surface
- * that the ray leaves. But others that meet it at an angle are. */
-static bool is_at_origin(const query *q, double distance, double slope, vec3 normal) {
+/* Whether a crossing is at the ray's origin: of a surface that the origin lies on, or one that coincides with the
+ * surface that the ray leaves. Others that meet that one at an angle are hit however close they are. */
+static bool is_at_origin(const query *q, const candidate *c) {
     const geometry *g = q->geometry;
-    if (q->from < 0 || distance * fabs(slope) <= ON_SURFACE * (vec3_max_abs(g->center) + g->radius))
+    if (c->distance <= q->at_once)
         return true;
+    double height = fabs(c->distance * c->slope);
+    /* Twice as far as from the surface left, which itself may be the other one of two that coincide. */
+    if (height > 2 * q->farthest_coincidence)
+        return false;
+    if (height <= GEOMETRY_ON_SURFACE * (q->size + g->reach[c->surface]))
+        return true;
+    if (q->from < 0)
+        return false;
     vec3 left = shape_normal(&g->shapes[q->from], q->origin);
-    return vec3_length(vec3_cross(left, normal)) <= PARALLEL;
+    return coincide(q, height / 2, reach_of(q, c->surface, q->from), c->normal, left);
 }
 
-static bool in_reach(const query *q, double distance, double slope, vec3 normal) {
-    return distance > 0 && distance <= q->far &&
-           (distance > q->geometry->near || !is_at_origin(q, distance, slope, normal));
+static bool in_reach(const query *q, const candidate *c) {
+    return c->distance > 0 && (c->distance <= q->far || q->any) && !is_at_origin(q, c);
 }
 
 typedef struct point2 {
@@ -145,12 +192,40 @@ static int edge_side(point2 a, point2 b) {
     return (p > q) - (p < q);
 }
 
-static bool line_meets_triangle(const query *q, const geometry_triangle *triangle) {
-    point2 a = project(q, geometry_corner(q->geometry, triangle, 0));
-    point2 b = project(q, geometry_corner(q->geometry, triangle, 1));
-    point2 c = project(q, geometry_corner(q->geometry, triangle, 2));
-    int ab = edge_side(a, b), bc = edge_side(b, c), ca = edge_side(c, a);
+/* A triangle's corners as seen along the ray, which passes the origin. */
+typedef struct view2 {
+    point2 a, b, c;
+} view2;
+
+static view2 project_triangle(const query *q, const geometry_triangle *triangle) {
+    return (view2){project(q, geometry_corner(q->geometry, triangle, 0)),
+                   project(q, geometry_corner(q->geometry, triangle, 1)),
+                   project(q, geometry_corner(q->geometry, triangle, 2))};
+}
+
+static bool is_met(const view2 *v) {
+    int ab = edge_side(v->a, v->b), bc = edge_side(v->b, v->c), ca = edge_side(v->c, v->a);
     return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+static bool line_meets_triangle(const query *q, const geometry_triangle *triangle) {
+    view2 v = project_triangle(q, triangle);
+    return is_met(&v);
+}
+
+static double distance2_to_edge(point2 a, point2 b) {
+    double x = b.x - a.x, y = b.y - a.y, length2 = x * x + y * y;
+    double along = length2 > 0 ? -(a.x * x + a.y * y) / length2 : 0;
+    along = double_min(double_max(along, 0), 1);
+    double dx = a.x + along * x, dy = a.y + along * y;
+    return dx * dx + dy * dy;
+}
+
+/* How far off the ray passes a triangle that it does not meet. The plane of projection is oblique: what it shows is at
+ * most sqrt(3) times too large. */
+static double passing_distance(const view2 *v) {
+    double ab = distance2_to_edge(v->a, v->b), bc = distance2_to_edge(v->b, v->c), ca = distance2_to_edge(v->c, v->a);
+    return sqrt(double_min(ab, double_min(bc, ca)) / 3);
 }
 
 /* Whether the exact test can only confirm Embree's finding. */
@@ -162,12 +237,17 @@ static bool is_certain(const geometry_triangle *triangle, double slope, const st
 /* Offers a triangle that the line meets. */
 static bool offer_met(query *q, const geometry_triangle *triangle, double slope) {
     double distance = vec3_dot(triangle->normal, vec3_subtract(triangle->center, q->origin)) / slope;
-    return in_reach(q, distance, slope, triangle->normal) &&
-           offer(q, (candidate){distance, triangle->surface, triangle->shines, triangle}, slope);
+    candidate c = {distance, triangle->normal, slope, triangle->surface, triangle->shines, triangle};
+    return in_reach(q, &c) && offer(q, c);
+}
+
+/* How far from the true ray Embree may be wrong about a triangle at that distance. */
+static double single_error(const query *q, const geometry_triangle *triangle, double distance) {
+    return triangle->error / q->geometry->scale + GEOMETRY_UNIT_ERROR * (distance - q->start);
 }
 
 static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
-    double error = triangle->error / q->geometry->scale + GEOMETRY_UNIT_ERROR * (distance - q->start);
+    double error = single_error(q, triangle, distance);
     miss m = {distance, error, error / fmax(fabs(slope), DBL_EPSILON)};
     if (distance + m.reach <= 0)
         return;
@@ -193,7 +273,7 @@ static bool offer_triangle(query *q, const struct RTCRay *ray, const struct RTCH
     return false;
 }
 
-/* Offers a triangle near a miss. */
+/* Offers a triangle near a miss. One that the ray passes far off has nothing to do with it. */
 static bool offer_neighbour(struct RTCPointQueryFunctionArguments *args) {
     query *q = args->userPtr;
     /* Triangles are attached first. */
@@ -203,9 +283,10 @@ static bool offer_neighbour(struct RTCPointQueryFunctionArguments *args) {
     if (is_excepted(q, triangle))
         return false;
     double slope = vec3_dot(triangle->normal, q->direction);
-    if (line_meets_triangle(q, triangle))
+    view2 v = project_triangle(q, triangle);
+    if (is_met(&v))
         offer_met(q, triangle, slope);
-    else
+    else if (passing_distance(&v) <= 2 * single_error(q, triangle, q->around->distance))
         note_miss(q, triangle, q->around->distance, slope);
     return false;
 }
@@ -218,12 +299,13 @@ static bool offer_curved(query *q, unsigned primitive) {
     shape_crossings crossings = shape_cross(s, q->origin, q->direction, surface == q->from);
     for (int i = 0; i < crossings.count; i++) {
         double distance = crossings.distance[i];
-        if (distance <= 0 || distance > q->far)
+        if (distance <= 0 || (distance > q->far && !q->any))
             continue;
         vec3 normal = shape_normal(s, vec3_add_scaled(q->origin, distance, q->direction));
         double slope = vec3_dot(normal, q->direction);
-        if (in_reach(q, distance, slope, normal))
-            return offer(q, (candidate){distance, surface, s->shines, NULL}, slope);
+        candidate c = {distance, normal, slope, surface, s->shines, NULL};
+        if (in_reach(q, &c))
+            return offer(q, c);
     }
     return false;
 }
@@ -264,22 +346,20 @@ static vec3 embree_place(const query *q, double distance) {
 
 /* Sends Embree along the ray. */
 static void cast(query *q) {
-    const geometry *g = q->geometry;
     vec3 o = embree_place(q, q->start);
-    struct RTCRay ray = {.org_x = (float)o.x,
-                         .org_y = (float)o.y,
-                         .org_z = (float)o.z,
-                         .dir_x = (float)q->direction.x,
-                         .dir_y = (float)q->direction.y,
-                         .dir_z = (float)q->direction.z,
-                         .tfar = q->limit,
-                         .mask = UINT32_MAX};
-    if (q->any) {
-        embree_occluded(g->scene, &q->context, &ray);
-    } else {
-        struct RTCRayHit ray_hit = {.ray = ray, .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-        embree_intersect(g->scene, &q->context, &ray_hit);
-    }
+    struct RTCRayHit ray = {.ray = {.org_x = (float)o.x,
+                                    .org_y = (float)o.y,
+                                    .org_z = (float)o.z,
+                                    .dir_x = (float)q->direction.x,
+                                    .dir_y = (float)q->direction.y,
+                                    .dir_z = (float)q->direction.z,
+                                    .tfar = q->limit,
+                                    .mask = UINT32_MAX},
+                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    if (q->any)
+        embree_occluded(q->geometry->scene, &q->context, &ray.ray);
+    else
+        embree_intersect(q->geometry->scene, &q->context, &ray);
 }
 
 /* Tests all triangles about a miss. */
@@ -319,8 +399,6 @@ static bool clip(query *q) {
  * the ray may lead to the right one farther away: that is another miss, of larger reach. All are tested against the
  * true ray. */
 static void trace(query *q) {
-    embree_context_init(&q->context);
-    q->nearest = q->nearest_front = q->nearest_shining = (candidate){INFINITY, -1, false, NULL};
     cast(q);
     for (int i = 0; i < q->miss_count && !q->found_any; i++) {
         q->around = &q->misses[i];
@@ -337,41 +415,58 @@ static bool is_ray(const geometry_ray *ray) {
 
 /* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray; and of those that do,
  * such as a ceiling and a lamp in its plane, the one that shines. */
-static candidate visible(const query *q) {
-    double last = q->nearest.distance + q->geometry->near;
-    if (q->nearest_shining.distance <= last)
-        return q->nearest_shining;
-    return q->nearest_front.distance <= last ? q->nearest_front : q->nearest;
+static const candidate *visible(const query *q) {
+    const candidate *nearest = &q->nearest;
+    if (candidates_coincide(q, nearest, &q->nearest_shining))
+        return &q->nearest_shining;
+    bool covered = nearest->slope >= 0 && candidates_coincide(q, nearest, &q->nearest_front);
+    return covered ? &q->nearest_front : nearest;
+}
+
+static const candidate nothing = {.distance = INFINITY, .surface = -1};
+
+/* All but `misses`, which a query seldom has: to clear them would take longer than many a query. */
+static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
+    embree_context_init(&q->context);
+    q->geometry = g;
+    q->origin = ray->origin;
+    q->direction = ray->direction;
+    q->size = vec3_max_abs(ray->origin);
+    q->at_once = ray->from < 0 ? double_min(GIVEN_ORIGIN * q->size, GEOMETRY_FTINY) : 0;
+    q->farthest_coincidence = coincidence(q, g->largest_reach);
+    q->far = ray->far;
+    q->from = ray->from;
+    q->target = -1;
+    q->any = q->found_any = false;
+    q->nearest = q->nearest_front = q->nearest_shining = nothing;
+    q->around = NULL;
+    q->miss_count = 0;
 }
 
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
     hit->surface = -1;
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g,
-               .origin = ray->origin,
-               .direction = ray->direction,
-               .far = ray->far,
-               .from = ray->from,
-               .target = -1};
+    query q;
+    prepare(&q, g, ray);
     if (!clip(&q))
         return false;
     trace(&q);
-    candidate found = visible(&q);
-    if (found.surface < 0)
+    const candidate *found = visible(&q);
+    if (found->surface < 0)
         return false;
-    hit->surface = found.surface;
-    hit->distance = found.distance;
-    hit->point = vec3_add_scaled(ray->origin, found.distance, ray->direction);
-    const geometry_triangle *triangle = found.triangle;
+    hit->surface = found->surface;
+    hit->distance = found->distance;
+    hit->point = vec3_add_scaled(ray->origin, found->distance, ray->direction);
+    const geometry_triangle *triangle = found->triangle;
     if (triangle) {
         /* shape_pull() without another look into memory */
         double height = vec3_dot(triangle->normal, vec3_subtract(hit->point, triangle->center));
         hit->point = vec3_add_scaled(hit->point, -height, triangle->normal);
         hit->normal = triangle->normal;
     } else {
-        hit->point = shape_pull(&g->shapes[found.surface], hit->point);
-        hit->normal = shape_normal(&g->shapes[found.surface], hit->point);
+        hit->point = shape_pull(&g->shapes[found->surface], hit->point);
+        hit->normal = shape_normal(&g->shapes[found->surface], hit->point);
     }
     return true;
 }
@@ -379,14 +474,10 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
 bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g,
-               .origin = ray->origin,
-               .direction = ray->direction,
-               .far = ray->far + g->near,
-               .from = ray->from,
-               .target = target,
-               .any = true,
-               .clear = ray->far - g->near};
+    query q;
+    prepare(&q, g, ray);
+    q.target = target;
+    q.any = true;
     if (!clip(&q))
         return false;
     trace(&q);

@@ -177,7 +177,7 @@ static shaft_kind light_shaft(shaft *s, const geometry *g) {
 shaft_kind shaft_make(shaft *s, const geometry *g, const geometry_sight *sight) {
     s->sight = sight;
     s->tolerance = shaft_tolerance(g);
-    s->near = g->near;
+    s->near = geometry_coincidence(g->largest_reach, vec3_max_abs(sight->point));
     s->round = false;
     s->ball_radius = 0;
     s->corner_count = s->side_count = 0;

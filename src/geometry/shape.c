@@ -330,3 +330,32 @@ double shape_area(const shape *s) {
     }
     return 0;
 }
+
+bool shape_is_rectangle(const shape *s, shape_rectangle *r) {
+    if (s->kind != SHAPE_POLYGON || s->polygon.vertex_count != 4)
+        return false;
+    const vec3 *p = s->polygon.vertices;
+    vec3 x = vec3_subtract(p[1], p[0]), y = vec3_subtract(p[3], p[0]);
+    double length_x = vec3_length(x), length_y = vec3_length(y);
+    /* Far below what solid angles are promised to, and above what turning a rectangle's vertices loses. */
+    const double tolerance = 1e-11;
+    if (!(fabs(vec3_dot(x, y)) <= tolerance * length_x * length_y))
+        return false;
+    vec3 gap = vec3_subtract(vec3_subtract(p[2], p[1]), y);
+    if (!(vec3_length(gap) <= tolerance * double_min(length_x, length_y)))
+        return false;
+    *r = (shape_rectangle){vec3_scale(1 / length_x, x), vec3_scale(1 / length_y, y), length_x, length_y};
+    return true;
+}
+
+bool shape_prepare_light(shape *s, arena *memory) {
+    shape_rectangle found;
+    if (!shape_is_rectangle(s, &found))
+        return true;
+    shape_rectangle *kept = arena_allocate(memory, sizeof *kept);
+    if (!kept)
+        return false;
+    *kept = found;
+    s->polygon.rectangle = kept;
+    return true;
+}

@@ -16,6 +16,12 @@ typedef enum shape_kind {
     SHAPE_RING, /* a flat disk with an optional round hole */
 } shape_kind;
 
+/* A rectangle's sides: x cross y is the normal. */
+typedef struct shape_rectangle {
+    vec3 x, y; /* unit, along the sides from the first vertex */
+    double length_x, length_y;
+} shape_rectangle;
+
 typedef struct shape {
     shape_kind kind;
     bool inward; /* bubble, cup, tube: the normal points inward */
@@ -30,6 +36,7 @@ typedef struct shape {
             vec3 center;   /* the outline's mean vertex, a point of the plane */
             double offset; /* dot(normal, center) */
             double area;
+            const shape_rectangle *rectangle; /* null: not one, or not known to be, by shape_prepare_light */
         } polygon;
         struct {
             vec3 center;
@@ -53,6 +60,11 @@ typedef struct shape {
  * give *degenerate = true (the surface then does not exist); a sphere of zero radius is an error; negative radii are
  * warned about and turn the normal; non-planar polygons are warned about. */
 graze_status shape_from_primitive(shape *, bool *degenerate, const rad_primitive *, arena *, const graze_report *);
+
+/* Finds out what drawing points of the shape asks every time. Memory comes from the arena; false: there is none. */
+bool shape_prepare_light(shape *, arena *);
+/* Whether the polygon is a rectangle, as far as its vertices' roundings tell. */
+bool shape_is_rectangle(const shape *, shape_rectangle *);
 
 /* Bounds: lower and upper corner, in double precision. */
 void shape_bounds(const shape *, vec3 *lower, vec3 *upper);

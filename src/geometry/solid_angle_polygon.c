@@ -80,31 +80,6 @@ static vec3 draw_triangle(const view_triangle *t, double solid_angle, double u, 
     return vec3_add_scaled(t->b, cut, edge);
 }
 
-/* A rectangle seen from the origin of the frame x, y, normal: [x0, x1] times [y0, y1] at z = -height. */
-typedef struct view_rectangle {
-    vec3 corner, edge_x, edge_y; /* from the point to the first corner; its edges */
-    double length_x, length_y;
-    double x0, x1, y0, y1, height;
-    double solid_angle;
-    double start; /* the solid angle between the lines x = 0 and x = x0, y in [y0, y1] */
-} view_rectangle;
-
-static bool is_rectangle(const shape *s, view_rectangle *r) {
-    if (s->polygon.vertex_count != 4)
-        return false;
-    const vec3 *p = s->polygon.vertices;
-    r->edge_x = vec3_subtract(p[1], p[0]);
-    r->edge_y = vec3_subtract(p[3], p[0]);
-    r->length_x = vec3_length(r->edge_x);
-    r->length_y = vec3_length(r->edge_y);
-    /* Far below what solid angles are promised to, and above what turning a rectangle's vertices loses. */
-    const double tolerance = 1e-11;
-    if (!(fabs(vec3_dot(r->edge_x, r->edge_y)) <= tolerance * r->length_x * r->length_y))
-        return false;
-    vec3 gap = vec3_subtract(vec3_subtract(p[2], p[1]), r->edge_y);
-    return vec3_length(gap) <= tolerance * fmin(r->length_x, r->length_y);
-}
-
 typedef struct complex_number {
     double re, im;
 } complex_number;
@@ -113,9 +88,19 @@ static complex_number times(complex_number a, complex_number b) {
     return (complex_number){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
-/* Its argument is the solid angle of [0, x] times [0, y]: the tangent of that is x y / (height r). */
-static complex_number corner(double x, double y, double height) {
-    return (complex_number){1, x * y / (height * sqrt(x * x + y * y + height * height))};
+/* A rectangle seen from the origin of the frame x, y, normal: [x0, x1] times [y0, y1] at z = -height. */
+typedef struct view_rectangle {
+    const shape_rectangle *sides;
+    vec3 corner; /* from the point to the first corner */
+    double x0, x1, y0, y1, height;
+    double reach0, reach1; /* |(y0, height)|, |(y1, height)| */
+    double solid_angle;
+    complex_number start; /* its argument is the solid angle between the lines x = 0 and x = x0, y in [y0, y1] */
+} view_rectangle;
+
+/* The argument is the solid angle of [0, x] times [0, y]: the tangent of that is x y / (height r). */
+static complex_number corner_term(double x, double y, double height) {
+    return (complex_number){height * sqrt(x * x + y * y + height * height), x * y};
 }
 
 static complex_number conjugate(complex_number a) {
@@ -124,49 +109,59 @@ static complex_number conjugate(complex_number a) {
 
 /* Whether the polygon is a rectangle whose solid angle and shape suit draw_rectangle. Corner terms cancel where the
  * solid angle is small, and x is lost where it is far greater than the height; triangles do better there. */
-static bool view_as_rectangle(view_rectangle *r, const shape *s, vec3 from) {
-    if (!is_rectangle(s, r))
-        return false;
+static bool view_as_rectangle(view_rectangle *r, shape_rectangle *room, const shape *s, vec3 from) {
+    r->sides = s->polygon.rectangle;
+    if (!r->sides) {
+        if (!shape_is_rectangle(s, room))
+            return false;
+        r->sides = room;
+    }
     r->corner = vec3_subtract(s->polygon.vertices[0], from);
-    vec3 x = vec3_scale(1 / r->length_x, r->edge_x), y = vec3_scale(1 / r->length_y, r->edge_y);
-    r->x0 = vec3_dot(r->corner, x);
-    r->y0 = vec3_dot(r->corner, y);
-    r->x1 = r->x0 + r->length_x;
-    r->y1 = r->y0 + r->length_y;
-    r->height = -vec3_dot(r->corner, vec3_cross(x, y));
-    double extent = fmax(fmax(fabs(r->x0), fabs(r->x1)), fmax(fabs(r->y0), fabs(r->y1)));
-    if (!(r->height > 1e-3 * extent))
+    r->x0 = vec3_dot(r->corner, r->sides->x);
+    r->y0 = vec3_dot(r->corner, r->sides->y);
+    r->x1 = r->x0 + r->sides->length_x;
+    r->y1 = r->y0 + r->sides->length_y;
+    r->height = -vec3_dot(r->corner, vec3_cross(r->sides->x, r->sides->y));
+    double h = r->height, most = 1e3 * h;
+    if (!(r->x0 > -most && r->x1 < most && r->y0 > -most && r->y1 < most))
         return false;
-    complex_number left = times(corner(r->x0, r->y1, r->height), conjugate(corner(r->x0, r->y0, r->height)));
-    complex_number right = times(corner(r->x1, r->y1, r->height), conjugate(corner(r->x1, r->y0, r->height)));
-    complex_number whole = times(right, conjugate(left));
+    r->reach0 = sqrt(r->y0 * r->y0 + h * h);
+    r->reach1 = sqrt(r->y1 * r->y1 + h * h);
+    r->start = times(corner_term(r->x0, r->y1, h), conjugate(corner_term(r->x0, r->y0, h)));
+    complex_number end = times(corner_term(r->x1, r->y1, h), conjugate(corner_term(r->x1, r->y0, h)));
+    complex_number whole = times(end, conjugate(r->start));
     r->solid_angle = atan2(whole.im, whole.re);
     if (r->solid_angle < 0)
         r->solid_angle += 2 * PI;
-    r->start = atan2(left.im, left.re);
     return r->solid_angle > 1e-5;
 }
 
 /* After C. Urena, M. Fajardo and A. King, "An area-preserving parametrization for spherical rectangles", 2013, with an
  * inversion of our own: with X = x/|(x, height)| and Y_i = y_i/|(y_i, height)| the solid angle between the lines 0 and
- * x is asin(X Y1) - asin(X Y0), and setting that to tau gives X = sin(tau) / sqrt(Y0^2 + Y1^2 - 2 Y0 Y1 cos(tau)). */
+ * x is asin(X Y1) - asin(X Y0), and setting that to tau gives X = sin(tau) / sqrt(Y0^2 + Y1^2 - 2 Y0 Y1 cos(tau)).
+ * Numerator and denominator are multiplied by both lengths, and tau is turned on from where it starts. */
 static vec3 draw_rectangle(const view_rectangle *r, double u, double v) {
-    double tau = r->start + u * r->solid_angle, h = r->height;
-    double y0 = r->y0 / sqrt(r->y0 * r->y0 + h * h), y1 = r->y1 / sqrt(r->y1 * r->y1 + h * h);
-    double sine = sin(tau), rest = y0 * y0 + y1 * y1 - 2 * y0 * y1 * cos(tau) - sine * sine;
+    const shape_rectangle *sides = r->sides;
+    double h = r->height, both = r->reach0 * r->reach1, turn = u * r->solid_angle;
+    complex_number tau = times(r->start, (complex_number){cos(turn), sin(turn)});
+    double size = (r->x0 * r->x0 + h * h) * both; /* of `start` */
+    double sine = both * tau.im / size, cosine = tau.re / size;
+    double a = r->y0 * r->reach1, b = r->y1 * r->reach0, rest = a * a + b * b - 2 * a * b * cosine - sine * sine;
     double x = rest > 0 ? h * sine / sqrt(rest) : sine > 0 ? r->x1 : r->x0;
     x = solid_angle_clamp(x, r->x0, r->x1);
     /* On the line x the sine of the elevation in y's direction uniformly. */
-    double reach = x * x + h * h;
-    y0 = r->y0 / sqrt(r->y0 * r->y0 + reach);
-    y1 = r->y1 / sqrt(r->y1 * r->y1 + reach);
+    double reach2 = x * x + h * h;
+    double y0 = r->y0 / sqrt(r->y0 * r->y0 + reach2), y1 = r->y1 / sqrt(r->y1 * r->y1 + reach2);
     double y_sine = y0 + v * (y1 - y0);
-    double y = solid_angle_clamp(y_sine * sqrt(reach / ((1 - y_sine) * (1 + y_sine))), r->y0, r->y1);
-    vec3 to_line = vec3_add_scaled(r->corner, (x - r->x0) / r->length_x, r->edge_x);
-    return vec3_add_scaled(to_line, (y - r->y0) / r->length_y, r->edge_y);
+    double y = solid_angle_clamp(y_sine * sqrt(reach2 / ((1 - y_sine) * (1 + y_sine))), r->y0, r->y1);
+    return vec3_add_scaled(vec3_add_scaled(r->corner, x - r->x0, sides->x), y - r->y0, sides->y);
 }
 
 double solid_angle_polygon(const shape *s, vec3 from) {
+    view_rectangle r;
+    shape_rectangle room;
+    if (view_as_rectangle(&r, &room, s, from))
+        return r.solid_angle;
     double sum = 0;
     for (uint32_t i = 0; i < s->polygon.triangle_count; i++) {
         view_triangle t;
@@ -218,7 +213,8 @@ static solid_angle_sample draw_triangles(const shape *s, vec3 from, double u, do
 
 solid_angle_sample solid_angle_polygon_draw(const shape *s, vec3 from, double u, double v) {
     view_rectangle r;
-    if (view_as_rectangle(&r, s, from))
+    shape_rectangle room;
+    if (view_as_rectangle(&r, &room, s, from))
         return solid_angle_sample_at(draw_rectangle(&r, u, v), 1 / r.solid_angle);
     return draw_triangles(s, from, u, v);
 }

@@ -14,7 +14,7 @@ static inline frame material_frame(const graze_surface *s) {
 
 /* Infinity, where a product has left a double's range, becomes DBL_MAX. */
 static inline rgb material_saturate(rgb a) {
-    return (rgb){fmin(a.r, DBL_MAX), fmin(a.g, DBL_MAX), fmin(a.b, DBL_MAX)};
+    return (rgb){double_min(a.r, DBL_MAX), double_min(a.g, DBL_MAX), double_min(a.b, DBL_MAX)};
 }
 
 /* The reflectance of the diffuse part for light at `cosine` > 0. */

@@ -29,7 +29,7 @@ static bool orient(vec3 n, vec3 u0, frame *f) {
 }
 
 static double clamp_roughness(double alpha) {
-    return fmin(fmax(alpha, GRAZE_ROUGHNESS_MIN), GRAZE_ROUGHNESS_MAX);
+    return double_min(double_max(alpha, GRAZE_ROUGHNESS_MIN), GRAZE_ROUGHNESS_MAX);
 }
 
 /* Sets the frame and the glossy lobe; true for a mirror. */
@@ -55,14 +55,14 @@ static void prepare_colours(graze_surface *s, const graze_material *m, bool mirr
     double specularity = m->specularity, fresnel = 0;
     s->fresnel = mirror && specularity >= MATERIAL_FRESNEL_THRESHOLD;
     if (s->fresnel)
-        fresnel = material_fresnel(fmax(view_cosine, SMALLEST_VIEW_COSINE));
+        fresnel = material_fresnel(double_max(view_cosine, SMALLEST_VIEW_COSINE));
 
     double white = specularity + fresnel * (1 - specularity);
     if (m->kind == GRAZE_METAL)
         s->specular = rgb_add_scaled(rgb_gray(fresnel), specularity * (1 - fresnel), m->color);
     else
         s->specular = rgb_gray(white);
-    s->diffuse = rgb_scale(fmax(0, 1 - white), m->color);
+    s->diffuse = rgb_scale(double_max(1 - white, 0), m->color);
 
     s->specular_lobe = rgb_is_black(s->specular) ? GRAZE_LOBE_NONE : mirror ? GRAZE_LOBE_MIRROR : GRAZE_LOBE_GLOSSY;
 }

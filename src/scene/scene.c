@@ -137,6 +137,8 @@ static void add_shape(builder *b, int primitive) {
     scene->shapes[index].shines = scene->materials[material].emits;
     if (!scene->materials[material].emits)
         return;
+    if (!shape_prepare_light(&scene->shapes[index], scene->memory))
+        fail(b, report_out_of_memory(b->report));
     scene_light light = scene->materials[material].light;
     light.shape = &scene->shapes[index];
     light.surface = (int)index;

@@ -12,7 +12,7 @@
 #include "tools/common/tool.h"
 
 #define RAY_FIELDS 6
-#define CHUNK_RAYS 64
+#define CHUNK_RAYS 1024
 /* Entries of the option table that are gtrace's own. */
 #define GTRACE_OPTION_COUNT 8
 
@@ -105,6 +105,7 @@ static graze_status answer_input(job *j, const tool_arguments *arguments, const 
     const gtrace_options *o = j->options;
     record_filter filter = {.fields = RAY_FIELDS,
                             .chunk_records = CHUNK_RAYS,
+                            .uneven = true,
                             .threads = o->render.threads,
                             .user = j,
                             .answer = answer_rays};

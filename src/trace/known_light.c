@@ -62,6 +62,12 @@ static path_memory_light look_at(const path *p, const vertex *v, int index, bool
     return found;
 }
 
+/* Makes the path have so many controls, new ones being 0. */
+static void begin_controls(path *p, int count) {
+    for (; p->control_count < count; p->control_count++)
+        p->controls[p->control_count] = (path_control){{0, 0, 0}, 0, 0};
+}
+
 void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, 0, p->depth > 0};
@@ -89,9 +95,9 @@ void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
             continue;
         }
         p->known.lights |= 1u << i;
+        begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
         path_control *control = control_of(p, i);
         control->difference = rgb_add(control->difference, reflected);
-        p->control_count = p->known.shared ? PATH_CONTROLS : i + 1 > p->control_count ? i + 1 : p->control_count;
     }
 }
 

@@ -84,11 +84,22 @@ static graze_surface_sample draw_direction(path *p, const graze_surface *s, graz
     return graze_surface_sample_lobe(s, lobe, random[0], random[1], random[2]);
 }
 
+/* Draws what it takes to choose a lobe, in random[3], and a direction. Where there is no choice no number is drawn for
+ * it; a diffuse direction takes two, a mirror's none. */
+static void draw_numbers(path *p, graze_lobe specular, lobe_choice choice, double random[4]) {
+    if (choice.specular == 0 && choice.diffuse >= 1)
+        sampler_2d(p->sampler, random);
+    else if (choice.diffuse > 0 || choice.specular < 1)
+        sampler_4d(p->sampler, random);
+    else if (specular != GRAZE_LOBE_MIRROR)
+        sampler_3d(p->sampler, random);
+}
+
 bool lobes_reflect(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice, vec3 *direction) {
     if (choice.diffuse + choice.specular == 0)
         return false;
-    double random[4];
-    sampler_4d(p->sampler, random);
+    double random[4] = {0, 0, 0, 0};
+    draw_numbers(p, v->shading.specular_lobe, choice, random);
     bool diffuse = random[3] < choice.diffuse;
     if (!diffuse && random[3] >= choice.diffuse + choice.specular)
         return false;

@@ -41,23 +41,35 @@ static void follow(path *p, vertex v) {
     }
 }
 
-static path path_start(const path_context *context, sampler *points) {
-    return (path){.context = context, .sampler = points, .throughput = {1, 1, 1}};
+/* Sets all but what is written before it is read: the last reflection, and controls beyond their number. */
+static void path_start(path *p, const path_context *context, sampler *points) {
+    p->context = context;
+    p->sampler = points;
+    p->throughput = (rgb){1, 1, 1};
+    p->radiance = (rgb){0, 0, 0};
+    p->ambient_depth = p->depth = 0;
+    p->scattered = p->searching = false;
+    p->last.lobe = GRAZE_LOBE_NONE;
+    p->known = (known_lights){0, 0, false};
+    p->integrated = false;
+    p->control_count = 0;
 }
 
 static path_sample path_end(const path *p, uint32_t first_group) {
-    path_sample sample = {.radiance = p->radiance,
-                          .control_count = p->control_count,
-                          .noisy = p->sampler->group != first_group,
-                          .searching = p->searching,
-                          .integrated = p->integrated};
+    path_sample sample;
+    sample.radiance = p->radiance;
+    sample.control_count = p->control_count;
+    sample.noisy = p->sampler->group != first_group;
+    sample.searching = p->searching;
+    sample.integrated = p->integrated;
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
     return sample;
 }
 
 path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
-    path p = path_start(context, points);
+    path p;
+    path_start(&p, context, points);
     uint32_t first_group = points->group;
     vertex v;
     if (first->light >= 0)
@@ -68,7 +80,8 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
 }
 
 path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
-    path p = path_start(context, points);
+    path p;
+    path_start(&p, context, points);
     uint32_t first_group = points->group;
     follow(&p, vertex_of_sensor(point, normal));
     return path_end(&p, first_group);

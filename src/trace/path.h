@@ -20,7 +20,7 @@ enum { PATH_FIRST_CONTROLS = PATH_MEMORY_LIGHTS, PATH_CONTROLS = PATH_FIRST_CONT
 typedef struct path_sample {
     rgb radiance;
     path_control controls[PATH_CONTROLS];
-    int control_count; /* the others are 0 */
+    int control_count; /* so many are set */
     bool noisy;        /* random numbers were drawn: another sample may differ */
     bool integrated;   /* some of it is exact but for what graze/brdf_light.h allows */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall

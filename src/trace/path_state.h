@@ -46,7 +46,7 @@ typedef struct path {
     bool integrated;   /* whether some of the radiance is known without sampling */
     scattering last;
     known_lights known;
-    path_control controls[PATH_CONTROLS];
+    path_control controls[PATH_CONTROLS]; /* so many are set: */
     int control_count;
 } path;
 

@@ -99,9 +99,11 @@ typedef struct request {
 
 static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) {
     const request *r = user;
-    path_sample sample = r->context.settings->quantity == GRAZE_IRRADIANCE
-                             ? path_irradiance(&r->context, r->origin, r->direction, points)
-                             : path_radiance(&r->context, &r->first, points);
+    path_sample sample;
+    if (r->context.settings->quantity == GRAZE_IRRADIANCE)
+        sample = path_irradiance(&r->context, r->origin, r->direction, points);
+    else
+        sample = path_radiance(&r->context, &r->first, points);
     *luck = sample.searching ? ESTIMATE_SEARCH : sample.noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
     return sample;
 }

@@ -19,7 +19,9 @@ typedef struct record_filter {
     record_reader *reader;
     int fields;        /* of a record */
     int chunk_records; /* enough to make a thread's turn worthwhile, few enough to share out evenly */
-    bool floats;       /* wanted, not doubles; the reader's format has to be RECORD_FLOAT */
+    bool uneven; /* records may take long, and some far longer than others: of `chunk_records` a thread's turn takes
+                    only so many as are answered in a millisecond or so, and more turns are taken ahead */
+    bool floats; /* wanted, not doubles; the reader's format has to be RECORD_FLOAT */
     int threads;
     uint64_t wanted; /* stop after so many records, and it is an error if there are fewer; 0: all there are */
     void *user;
