@@ -11,11 +11,12 @@
 #include "tools/common/render_options.h"
 #include "tools/common/tool.h"
 #include "tools/gtrace/answer.h"
+#include "tools/gtrace/features.h"
 
 #define RAY_FIELDS 6
 #define CHUNK_RAYS 64
 /* Entries of the option table that are gtrace's own. */
-#define GTRACE_OPTION_COUNT 12
+#define GTRACE_OPTION_COUNT 13
 
 typedef struct gtrace_options {
     render_options render;
@@ -39,6 +40,12 @@ static graze_status take_formats(void *target, const char *suffix, int count, co
         return peer_take_definitions(target, suffix, count, words, used, report);
     *(const char **)target = suffix;
     return GRAZE_OK;
+}
+
+static graze_status refuse_features(void *target, const char *suffix, int count, const char *const *words, int *used,
+                                    const graze_report *report) {
+    (void)target, (void)suffix, (void)count, (void)words, (void)used;
+    return report_error(report, NULL, "option '-features' must come first");
 }
 
 static void print_formats(void *target, FILE *out) {
@@ -174,6 +181,8 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
 
 int main(int argc, char **argv) {
     graze_report report = options_standard_error_report("gtrace");
+    if (argc > 1 && strcmp(argv[1], "-features") == 0)
+        return (int)features_answer(argc - 2, argv + 2, &report);
     gtrace_options o = {.render = render_options_default(0.02),
                         .header = true,
                         .formats = "a",
@@ -199,6 +208,8 @@ int main(int argc, char **argv) {
         {"-I", OPTION_FLAG, &o.sensor, NULL, "irradiance on sensors at the rays' origins, the directions their normals",
          0, 0, NULL, NULL},
         {"-ld", OPTION_FLAG, &o.limit_distance, NULL, "look no farther than the direction's length", 0, 0, NULL, NULL},
+        {"-features", OPTION_CUSTOM, NULL, "[NAME[=PART,...]...]", "list or check features; as the first word only", 0,
+         0, refuse_features, NULL},
     };
     render_options_table(&o.render, table + GTRACE_OPTION_COUNT);
     option_table options = {.program = "gtrace",
