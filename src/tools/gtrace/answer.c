@@ -76,7 +76,7 @@ static bool trace_value(const answering *a, const graze_ray *ray, uint64_t numbe
 bool answer_ray(const answering *a, const graze_ray *ray, uint64_t number, record_buffer *out) {
     bool converged = true;
     graze_hit hit = {.distance = GRAZE_FAR};
-    ray_values v = {.hit = &hit, .coefficient = {1, 1, 1}, .mirrored_distance = GRAZE_FAR};
+    ray_values v = {.hit = &hit, .coefficient = {1, 1, 1}, .mirrored_distance = GRAZE_FAR, .weight = 1};
     if (!(vec3_max_abs(ray->direction) > 0)) {
         ray_output_append(&a->output, out, &v);
         return true;
@@ -87,7 +87,6 @@ bool answer_ray(const answering *a, const graze_ray *ray, uint64_t number, recor
     }
     v.origin = ray->origin;
     v.direction = ray->direction;
-    v.weight = 1;
     if (a->output.needs_mirror)
         v.mirrored_distance = graze_mirrored_distance(a->scene, &a->settings, ray);
     if (!a->output.needs_value)

@@ -114,8 +114,10 @@ graze_status ray_output_parse(ray_output *o, const char *letters, char format, c
             o->shadows = *c == 'T';
         }
     }
-    if (status == GRAZE_OK && o->tree && !*o->tree)
+    if (status == GRAZE_OK && o->tree && o->answer_count == 0 && !*o->tree)
         status = report_error(report, NULL, "-o%s: no letters behind t or T", letters);
+    if (o->tree && !*o->tree)
+        o->tree = NULL; /* nothing is asked of its rays */
     if (o->tree) {
         /* Shares and contributions of rays are those of light. */
         o->casts_only = false;
