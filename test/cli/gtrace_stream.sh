@@ -1,0 +1,34 @@
+#!/bin/bash
+# gtrace as a filter: what it holds in memory does not grow with what passes. TAP.
+source "$(dirname "$0")/../support/tap.sh"
+cd "$work" || exit 2
+gtrace=$BIN/gtrace
+if [ ! -r /proc/self/status ] || [ -n "${GRAZE_SANITIZED:-}" ]; then
+    echo "1..0 # SKIP peak memory is not known here, or not gtrace's own"
+    exit
+fi
+
+printf 'void plastic grey 0 0 5 .5 .5 .5 0 0 grey sphere ball 0 0 4 0 0 0 1\n' >ball.rad
+for i in $(seq 64); do echo "0 -3 .$i 0 1 0"; done | "$gtrace" -h -fad -ood ball.rad >rays
+# 2^18 rays of 48 bytes: 12 MiB.
+for i in $(seq 12); do cat rays rays >more && mv more rays; done
+
+# Peak memory in KiB of gtrace once it has answered that many rays, with more to come.
+peak() { # COUNT OPTION...
+    local count=$1
+    shift
+    mkfifo in out
+    "$gtrace" -h "$@" ball.rad <in >out &
+    local pid=$!
+    exec 5>in 6<out
+    head -c $((count * 48)) rays >&5 &
+    head -c $((count * 8)) <&6 | wc -c | grep -qx $((count * 8)) && awk '$1 == "VmHWM:" { print $2 }' "/proc/$pid/status"
+    exec 5>&- 6<&-
+    wait "$pid"
+    rm in out
+}
+few=$(peak 4096 -fd -oL) many=$(peak 262144 -fd -oL)
+check "2^12 rays and 2^18 rays, 12 MiB in and 2 MiB out, take the same memory: $few and $many KiB" test "$many" -lt "$((few + 1024))"
+few=$(peak 4096 -fd -oL -n 7) many=$(peak 262144 -fd -oL -n 7)
+check "... with seven threads: $few and $many KiB" test "$many" -lt "$((few + 2048))"
+plan
