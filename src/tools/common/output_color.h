@@ -1,4 +1,4 @@
-/* -p: the colours that values are printed in. */
+/* The colours that values are printed in: -p. */
 #ifndef TOOLS_COMMON_OUTPUT_COLOR_H
 #define TOOLS_COMMON_OUTPUT_COLOR_H
 

@@ -1,4 +1,4 @@
-/* -features: what scripts ask Radiance's programs before they use it. */
+/* What scripts ask Radiance's programs before they use it: -features. */
 #ifndef TOOLS_GTRACE_FEATURES_H
 #define TOOLS_GTRACE_FEATURES_H
 
