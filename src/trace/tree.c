@@ -15,15 +15,17 @@ typedef struct recording {
 
 static void record(void *user, const path_event *event) {
     recording *r = user;
-    if (r->count == r->capacity && !r->failed) {
+    if (r->count == r->capacity) {
         size_t capacity = r->capacity ? 2 * r->capacity : 64;
         path_event *events = realloc(r->events, capacity * sizeof *events);
-        r->failed = !events;
-        r->events = events ? events : r->events;
-        r->capacity = events ? capacity : r->capacity;
+        if (!events) {
+            r->failed = true;
+            return;
+        }
+        r->events = events;
+        r->capacity = capacity;
     }
-    if (!r->failed)
-        r->events[r->count++] = *event;
+    r->events[r->count++] = *event;
 }
 
 /* A tree while it is told from the ends of its paths. */

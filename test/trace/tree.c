@@ -31,7 +31,7 @@ static const char room[] = "void metal2 brushed 4 1 1 0 . 0 6 .6 .5 .4 .7 .1 .3\
 
 static const graze_ray rays[] = {
     {.origin = {0, -3, 2}, .direction = {0, 1, -.4}},    /* the glossy floor */
-    {.origin = {0, -3, 2}, .direction = {.1, 1, .1}},     /* the half mirroring wall */
+    {.origin = {0, -3, 2}, .direction = {.1, 1, .1}},    /* the half mirroring wall */
     {.origin = {0, -3, 2}, .direction = {1, .3, 0}},     /* the matt wall */
     {.origin = {0, -3, 2}, .direction = {.25, 1, -.3}},  /* the ball */
     {.origin = {0, -3, 2}, .direction = {-.2, 1, .2}},   /* the lamp */
