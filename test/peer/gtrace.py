@@ -316,8 +316,10 @@ def cases():
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]
     shapes = np.vstack([np.c_[towards, away], inside]).astype("<f4")
     yield Geometry("shapes", "shapes", shapes, "odpLNnsmM")
-    yield Geometry("shapes", "shapes", shapes, "lws")
+    yield Geometry("shapes", "shapes", shapes, "Xws")
     yield Geometry("box", "box", room, "pLNs")
+    # The effective length, by way of mirrors, which rtrace 6.0 follows only where their material is `mirror`.
+    yield Geometry("box", "box", room, "lRs")
     yield Geometry("turned plate", "brushed brushed_panel brushed_glows", np.vstack([inside, np.c_[0.3 * towards, away]]).astype("<f4"), "LpnNsM")
 
 
