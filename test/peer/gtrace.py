@@ -316,7 +316,7 @@ def cases():
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]
     shapes = np.vstack([np.c_[towards, away], inside]).astype("<f4")
     yield Geometry("shapes", "shapes", shapes, "odpLNnsmM")
-    yield Geometry("shapes", "shapes", shapes, "Xws")
+    yield Geometry("shapes", "shapes", shapes, "lXws")
     yield Geometry("box", "box", room, "pLNs")
     # The effective length, by way of mirrors, which rtrace 6.0 follows only where their material is `mirror`.
     yield Geometry("box", "box", room, "lRs")

@@ -157,7 +157,8 @@ static void append_name(record_buffer *out, const char *name) {
 
 /* As far away as what contributes most seems to be. */
 static double effective_distance(const ray_values *v) {
-    bool mirrors = rgb_brightness(v->mirrored) > 0.5 * rgb_brightness(v->value);
+    double mirrored = rgb_brightness(v->mirrored);
+    bool mirrors = mirrored > 0 && mirrored > 0.5 * rgb_brightness(v->value);
     return mirrors ? v->mirrored_distance : v->hit->distance;
 }
 
