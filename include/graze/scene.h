@@ -29,6 +29,10 @@ typedef struct graze_scene_settings {
     const graze_model_choice *models; /* a material's own name wins over an alias's original, that over null; else the
                                          last */
     size_t model_count;
+    const char *const *ambient_modifiers; /* names of modifiers of surfaces */
+    size_t ambient_modifier_count;
+    int ambient_modifiers_included; /* 0: on surfaces with one of these modifiers diffuse interreflection is not
+                                       computed: the ambient value stands for it. Else: on all others */
 } graze_scene_settings;
 
 /* Reads `count` descriptions as one, in order: each a .rad file, `!command`, or `-` for standard input; graze-scene(5)

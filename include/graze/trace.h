@@ -29,9 +29,17 @@ typedef enum graze_quantity {
     GRAZE_IRRADIANCE, /* rtrace's -I: irradiance on a sensor 0.0001 above the ray's origin, the direction its normal */
 } graze_quantity;
 
+/* How much of it: by what it reaches the ray's origin. The two parts add up to the whole. */
+typedef enum graze_part {
+    GRAZE_WHOLE = 0,
+    GRAZE_MIRRORED,   /* by mirror reflection on the first surface, which rough lobes are not: rtrace's -or */
+    GRAZE_UNMIRRORED, /* the rest: rtrace's -ox */
+} graze_part;
+
 /* Start from graze_trace_defaults() and change what you want. */
 typedef struct graze_trace_settings {
     graze_quantity quantity;
+    graze_part part;
     graze_strategy strategy;
     int ambient_bounces;       /* -ab: diffuse interreflections followed, >= 0 */
     graze_rgb ambient_value;   /* -av: radiance that stands for all diffuse light beyond; 0 .. 1e100 */
@@ -101,6 +109,36 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  * small lamp throws on a diffuse wall by way of a mirror, is in neither the value nor its error. */
 GRAZE_API void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
                            uint64_t stream, graze_answer *answer, graze_hit *hit);
+
+/* The length of a ray by way of the first surface, if that is a mirror, to what is seen in it; GRAZE_FAR if it is none,
+ * or nothing is seen. */
+GRAZE_API double graze_mirrored_distance(const graze_scene *scene, const graze_trace_settings *settings,
+                                         const graze_ray *ray);
+
+/* One ray of the paths that answer a ray. What is called its radiance is what this one path finds along it. */
+typedef struct graze_tree_ray {
+    int depth;                /* reflections before it; 0: the ray asked for */
+    int shadow;               /* 1: it was sent to a point of a light, and arrived */
+    graze_vec3 origin;        /* of a sensor (GRAZE_IRRADIANCE): where it stands */
+    graze_vec3 direction;     /* unit */
+    graze_hit hit;            /* of a sensor: nothing */
+    graze_rgb radiance;       /* along the ray */
+    graze_rgb coefficient;    /* which part of it the answer gets: reflectances, weights and probabilities multiplied */
+    graze_rgb contribution;   /* to the answer: their product, the sum of those of all rays that it leads to */
+    graze_rgb mirrored;       /* the part of `radiance` that a mirror at its end reflects */
+    double mirrored_distance; /* to what is seen in that; GRAZE_FAR where there is none */
+} graze_tree_ray;
+
+/* Takes `paths` paths (at least 1), and tells of every ray they consist of: each after all that follow from it, last
+ * the ray asked for, whose radiance is the answer: the mean over the paths. Shadow rays that meet something else first
+ * contribute nothing and are not told of. Contributions sum from ray to ray, up to what the ambient value adds on
+ * surfaces. Settings, stream and bits as in graze_trace, but for error, samples and part, which do not count; and light
+ * from lights is all sampled. An error means that there is no memory; a ray that graze_trace would answer with 0 is
+ * told of as one that meets nothing. */
+GRAZE_API graze_status graze_trace_tree(const graze_scene *scene, const graze_trace_settings *settings,
+                                        const graze_ray *ray, uint64_t stream, uint32_t paths,
+                                        void (*visit)(void *user, const graze_tree_ray *), void *user,
+                                        const graze_report *report);
 
 #ifdef __cplusplus
 }

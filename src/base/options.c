@@ -140,7 +140,7 @@ static graze_status read_option(const reading *r, int *used) {
         return read_text(r, used);
     case OPTION_SUFFIX:
         if (r->option->handle)
-            return r->option->handle(r->option->target, r->rest, 0, NULL, used, r->report);
+            return r->option->handle(r->option->target, r->rest, r->count, r->words, used, r->report);
         *(const char **)r->option->target = r->rest;
         return GRAZE_OK;
     case OPTION_CUSTOM:

@@ -27,8 +27,8 @@ typedef struct option {
     const char *arguments; /* for --help: "N", "r g b", "FILE" */
     const char *help;      /* one line; null: left out of --help */
     double low, high;      /* for INTEGER and REAL(3): the closed range allowed, HUGE_VAL for no limit; both 0: any */
-    /* OPTION_CUSTOM: gets the words that follow the name (`suffix` is what stands behind the name in its own word, or
-     * ""), puts into *used how many words it took. OPTION_SUFFIX: gets no words. */
+    /* OPTION_CUSTOM and OPTION_SUFFIX: gets the words that follow the name (`suffix` is what stands behind the name in
+     * its own word, or ""), puts into *used how many words it took. */
     graze_status (*handle)(void *target, const char *suffix, int count, const char *const *words, int *used,
                            const graze_report *report);
     /* Goes with `handle`: prints the option with its present value, re-readable, for -defaults. Null: not printed. */

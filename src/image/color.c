@@ -94,10 +94,20 @@ bool image_color_from_primaries(image_color_matrix *matrix, const image_primarie
     return true;
 }
 
+bool image_color_to_primaries(image_color_matrix *matrix, const image_primaries *p) {
+    image_color_matrix from;
+    return image_color_from_primaries(&from, p) && invert(&from, matrix);
+}
+
+image_color_matrix image_color_to_xyz(void) {
+    image_color_matrix xyz = {{{0}}};
+    to_xyz(&image_radiance_primaries, &xyz);
+    return xyz;
+}
+
 image_color_matrix image_color_from_xyz(void) {
-    image_color_matrix xyz = {{{0}}}, inverse = {{{0}}};
-    if (to_xyz(&image_radiance_primaries, &xyz))
-        invert(&xyz, &inverse);
+    image_color_matrix xyz = image_color_to_xyz(), inverse = {{{0}}};
+    invert(&xyz, &inverse);
     return inverse;
 }
 

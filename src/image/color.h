@@ -21,8 +21,11 @@ typedef struct image_color_matrix {
 /* RGB in the given primaries to RGB in Radiance's: white becomes white (adapted as by Radiance, through the "sharp"
  * sensors). False for primaries that span no colours. */
 bool image_color_from_primaries(image_color_matrix *, const image_primaries *);
-/* CIE XYZ, with Y in the unit of brightness, to Radiance's RGB. */
+/* The other way round. */
+bool image_color_to_primaries(image_color_matrix *, const image_primaries *);
+/* CIE XYZ, with Y in the unit of brightness, to Radiance's RGB, and back. */
 image_color_matrix image_color_from_xyz(void);
+image_color_matrix image_color_to_xyz(void);
 
 /* Radiance's lm/W: luminance in cd/m^2 = 179 x brightness. */
 #define IMAGE_LUMINOUS_EFFICACY 179.0

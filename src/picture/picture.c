@@ -65,7 +65,7 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     graze_ray ray;
     if (!pixel_ray(p, 0.5 + jitter * (random[0] - 0.5), 0.5 + jitter * (random[1] - 0.5), &ray))
         return (path_sample){.noisy = false};
-    path_context context = {r->scene, &r->trace, p->memory};
+    path_context context = {.scene = r->scene, .settings = &r->trace, .memory = p->memory};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     path_sample sample = path_radiance(&context, &first, points);
     if (sample.noisy)

@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "geometry/shaft.h"
 #include "material/from_primitive.h"
+#include "scene/ambient_choice.h"
 #include "scene/emitter.h"
 #include "scene/model_choice.h"
 
@@ -131,7 +132,12 @@ static void add_shape(builder *b, int primitive) {
         fail(b, status);
     if (status != GRAZE_OK || degenerate || material < 0)
         return;
-    scene->surfaces[index] = (scene_surface){.primitive = primitive, .material = material, .light = -1};
+    scene->surfaces[index] = (scene_surface){
+        .primitive = primitive,
+        .material = material,
+        .light = -1,
+        .no_ambient = scene_leaves_ambient_out(b->settings, scene_modifier_name(scene, primitive)),
+    };
     scene->surface_count++;
     check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
     scene->shapes[index].shines = scene->materials[material].emits;
@@ -256,6 +262,8 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         b.status = scene_check_models(b.settings, scene->primitives, primitive_count, report);
         if (b.status == GRAZE_OK)
             b.status = allocate(&b, primitive_count);
+        if (b.status == GRAZE_OK)
+            scene_check_ambient(b.settings, scene->primitives, primitive_count, report);
         if (b.status == GRAZE_OK)
             add_surfaces(&b, primitive_count);
     }

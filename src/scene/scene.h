@@ -49,9 +49,10 @@ typedef struct scene_material {
 } scene_material;
 
 typedef struct scene_surface {
-    int primitive; /* in the description */
-    int material;  /* index into materials */
-    int light;     /* index into lights, or -1 */
+    int primitive;   /* in the description */
+    int material;    /* index into materials */
+    int light;       /* index into lights, or -1 */
+    bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
 } scene_surface;
 
 struct graze_scene {

@@ -104,7 +104,8 @@ static graze_status read_question(evaluation *e, const eval_options *o, const gr
 
 static graze_status write_header(const records_job *j, const tool_arguments *arguments, const graze_report *report) {
     record_buffer out = {0};
-    record_header_append(&out, arguments, j->evaluation->numbers, (char)j->out);
+    const record_header header = {.numbers = j->evaluation->numbers, .format = (char)j->out};
+    record_header_append(&out, arguments, &header);
     graze_status status = record_buffer_write(&out, STDOUT_FILENO, "standard output", report);
     record_buffer_free(&out);
     return status;

@@ -144,7 +144,11 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
     graze_scene *scene = NULL;
     image *result = NULL;
     size_t unconverged = 0;
-    graze_status status = render_options_settings(&o->render, false, &settings, report);
+    graze_status status = render_options_begin(&o->render, arguments, report);
+    if (status == GRAZE_OK && o->render.color.space != OUTPUT_RGB)
+        status = report_error(report, NULL, "pictures are in Radiance's red, green and blue: -pRGB");
+    if (status == GRAZE_OK)
+        status = render_options_settings(&o->render, false, &settings, report);
     if (status == GRAZE_OK)
         status = rad_view_prepare(&picture.view, report);
     if (status == GRAZE_OK)
@@ -218,5 +222,7 @@ int main(int argc, char **argv) {
                             .summary = "Renders pictures of Radiance scenes to a stated error.",
                             .options = table,
                             .count = GPICT_OPTION_COUNT + RENDER_OPTION_COUNT};
-    return tool_main(&options, argc, argv, &report, run, &o);
+    int status = tool_main(&options, argc, argv, &report, run, &o);
+    render_options_free(&o.render);
+    return status;
 }

@@ -8,11 +8,14 @@
 #include "scene/scene.h"
 #include "trace/path_memory.h"
 
+struct path_observer;
+
 /* What one path needs of its surroundings. */
 typedef struct path_context {
     const graze_scene *scene;
     const graze_trace_settings *settings;
     path_memory *memory; /* null where nothing is to be sampled */
+    const struct path_observer *observer; /* is told of every ray (trace/observer.h); null: nobody is */
 } path_context;
 
 /* Whether the strategy looks for lights at all, or leaves them to reflections. */

@@ -3,6 +3,7 @@
 
 #include "base/angle.h"
 #include "trace/known_light.h"
+#include "trace/observer.h"
 
 /* Up to so many lights are all sampled, at the first point and at later ones; of more, one is chosen. */
 #define EVERY_LIGHT_FIRST PATH_FIRST_CONTROLS
@@ -70,8 +71,10 @@ static void add_sampled_light(path *p, const vertex *v, const light_receiver *re
         return;
     bool lit = light_is_visible(p, v, &sample);
     rgb found = rgb_scale(cosine / density, rgb_multiply(p->throughput, reflected));
-    if (lit)
+    if (lit) {
         p->radiance = rgb_add(p->radiance, found);
+        observe_shadow_ray(p, v->point, &sample, found);
+    }
     if (known_light_is(p, light))
         known_light_subtract(p, light, found, lit);
 }

@@ -10,20 +10,30 @@
 #include "trace/emission.h"
 #include "trace/known_light.h"
 #include "trace/lobes.h"
+#include "trace/observer.h"
 #include "trace/vertex.h"
+
+/* The ambient value stands for the diffuse light that is not followed. */
+static void add_ambient_value(path *p, const vertex *v) {
+    rgb reflected = rgb_multiply(v->ambient, p->context->settings->ambient_value);
+    rgb found = rgb_multiply(p->throughput, reflected);
+    p->radiance = rgb_add(p->radiance, found);
+    observe_surface(p, found);
+}
 
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, vertex v) {
     const path_context *context = p->context;
     for (;;) {
+        p->ambient_limit = v.no_ambient ? 0 : context->settings->ambient_bounces;
         if (!path_bounces_left(p))
-            p->radiance = rgb_add(
-                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
+            add_ambient_value(p, &v);
         lobe_choice choice = lobes_choose(p, &v);
         light_receiver receiver = direct_light_receiver(p, &v);
         p->known.lights = p->known.settled = 0;
         if (receiver.candidates > 0) {
-            known_light_add(p, &v, &receiver);
+            if (!context->observer)
+                known_light_add(p, &v, &receiver);
             direct_light_add(p, &v, &receiver, choice);
             if (known_light_is_all(p, &v, &receiver))
                 return;
@@ -34,6 +44,7 @@ static void follow(path *p, vertex v) {
         path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
+        observe_ray(p, v.point, &hit, found);
         if (p->known.lights)
             known_light_subtract_reflected(p, &v, &hit, found);
         if (!vertex_at_hit(p, &hit, &v))
@@ -72,9 +83,9 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     path_start(&p, context, points);
     uint32_t first_group = points->group;
     vertex v;
-    if (first->light >= 0)
+    if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
         p.radiance = emission_found(&p, first);
-    if (vertex_at_hit(&p, first, &v))
+    if (vertex_at_hit(&p, first, &v) && vertex_keep_part(&v, context->settings->part))
         follow(&p, v);
     return path_end(&p, first_group);
 }

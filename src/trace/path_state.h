@@ -15,6 +15,7 @@ typedef struct vertex {
     graze_surface shading;
     rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
     bool gloss_is_ambient;
+    bool no_ambient; /* diffuse light from surfaces is not followed here (-ae, -ai) */
 } vertex;
 
 /* The last reflection, as an emitter found next needs it. */
@@ -40,6 +41,7 @@ typedef struct path {
     sampler *sampler;
     rgb throughput, radiance;
     int ambient_depth; /* diffuse reflections so far */
+    int ambient_limit; /* how many there may be at this vertex */
     int depth;         /* all reflections so far */
     bool scattered;    /* whether any of them was not a mirror's */
     bool searching;    /* whether one may meet lights that no light sample finds */
@@ -59,7 +61,7 @@ typedef struct lobe_choice {
 
 /* Whether another diffuse reflection may follow. */
 static inline bool path_bounces_left(const path *p) {
-    return p->ambient_depth < p->context->settings->ambient_bounces;
+    return p->ambient_depth < p->ambient_limit;
 }
 
 static inline double power_heuristic(double density, double other) {

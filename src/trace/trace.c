@@ -2,6 +2,7 @@
 #include "graze/trace.h"
 
 #include "base/report.h"
+#include "trace/describe.h"
 #include "trace/estimate.h"
 #include "trace/path.h"
 
@@ -23,6 +24,8 @@ graze_status graze_trace_check(const graze_trace_settings *s, const graze_report
     rgb av = s->ambient_value;
     if (s->quantity < GRAZE_RADIANCE || s->quantity > GRAZE_IRRADIANCE)
         return report_error(report, NULL, "unknown quantity %d", (int)s->quantity);
+    if (s->part < GRAZE_WHOLE || s->part > GRAZE_UNMIRRORED)
+        return report_error(report, NULL, "unknown part %d", (int)s->part);
     if (s->strategy < GRAZE_STRATEGY_MIS || s->strategy > GRAZE_STRATEGY_UNWEIGHTED)
         return report_error(report, NULL, "unknown strategy %d", (int)s->strategy);
     if (s->reflection_limit < -REFLECTIONS || s->reflection_limit > REFLECTIONS)
@@ -46,48 +49,15 @@ graze_status graze_trace_check(const graze_trace_settings *s, const graze_report
     return GRAZE_OK;
 }
 
-static bool is_finite(vec3 v) {
-    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
-}
-
-/* Checks the ray and normalises its direction. */
-static bool prepare(const graze_ray *ray, vec3 *direction, double *limit) {
-    *direction = vec3_safe_normalize(ray->direction);
-    *limit = ray->limit > 0 ? ray->limit : GEOMETRY_FAR;
-    return is_finite(ray->origin) && is_finite(ray->direction) && vec3_max_abs(*direction) > 0 && isfinite(ray->limit);
-}
-
-static void describe(const graze_scene *scene, const path_hit *found, graze_hit *hit) {
-    *hit = (graze_hit){.distance = found->distance, .point = found->point};
-    int primitive = -1;
-    if (found->surface >= 0) {
-        primitive = scene->surfaces[found->surface].primitive;
-        hit->normal = found->normal;
-        bool turned = found->behind && !scene->materials[scene->surfaces[found->surface].material].emits;
-        hit->shading_normal = turned ? vec3_negate(found->normal) : found->normal;
-    } else if (found->light >= 0) {
-        primitive = scene->lights[found->light].primitive;
-        hit->normal = hit->shading_normal = vec3_negate(found->direction);
-    }
-    if (primitive < 0)
-        return;
-    hit->surface = scene_name(scene, primitive);
-    hit->modifier = scene_modifier_name(scene, primitive);
-    hit->material = scene_material_name(scene, primitive);
-}
-
-static const graze_hit nothing_hit = {.distance = GRAZE_FAR};
-
 void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, graze_hit *hit) {
     vec3 direction;
     double limit;
-    *hit = nothing_hit;
-    hit->point = ray->origin;
-    if (!prepare(ray, &direction, &limit))
+    *hit = describe_nothing(ray->origin);
+    if (!describe_ray(ray, &direction, &limit))
         return;
-    path_context context = {scene, settings, NULL};
+    path_context context = {.scene = scene, .settings = settings};
     path_hit found = path_cast(&context, ray->origin, direction, limit, -1);
-    describe(scene, &found, hit);
+    *hit = describe_hit(scene, &found);
 }
 
 /* A ray as estimate_sample sees it. */
@@ -111,19 +81,17 @@ static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,
                  graze_answer *answer, graze_hit *hit) {
     path_memory known = {.alike = true};
-    request r = {.context = {scene, settings, &known}, .origin = ray->origin};
+    request r = {.context = {.scene = scene, .settings = settings, .memory = &known}, .origin = ray->origin};
     double limit;
     *answer = (graze_answer){.converged = 1};
-    if (hit) {
-        *hit = nothing_hit;
-        hit->point = ray->origin;
-    }
-    if (!prepare(ray, &r.direction, &limit))
+    if (hit)
+        *hit = describe_nothing(ray->origin);
+    if (!describe_ray(ray, &r.direction, &limit))
         return;
     if (settings->quantity != GRAZE_IRRADIANCE) {
         r.first = path_cast(&r.context, ray->origin, r.direction, limit, -1);
         if (hit)
-            describe(scene, &r.first, hit);
+            *hit = describe_hit(scene, &r.first);
     }
     estimate(settings, stream, sample_ray, &r, answer);
 }

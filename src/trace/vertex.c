@@ -25,6 +25,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
     v->point = hit->point;
     v->surface = hit->surface;
+    v->no_ambient = scene->surfaces[hit->surface].no_ambient;
     if (p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT)
         v->shading = probe(normal, view);
     else
@@ -35,6 +36,17 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     if (v->gloss_is_ambient)
         v->ambient = rgb_add(v->ambient, v->shading.specular);
     return true;
+}
+
+bool vertex_keep_part(vertex *v, graze_part part) {
+    bool mirror = v->shading.specular_lobe == GRAZE_LOBE_MIRROR;
+    if (part == GRAZE_MIRRORED)
+        v->shading.diffuse = v->ambient = rgb_gray(0);
+    if (part == GRAZE_UNMIRRORED && mirror) {
+        v->shading.specular_lobe = GRAZE_LOBE_NONE;
+        v->shading.specular = rgb_gray(0);
+    }
+    return part != GRAZE_MIRRORED || mirror;
 }
 
 vertex vertex_of_sensor(vec3 point, vec3 normal) {

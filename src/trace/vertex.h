@@ -7,6 +7,9 @@
 /* Makes the vertex where the path has hit a reflecting surface. False: it has not, or carries nothing. */
 bool vertex_at_hit(const path *, const path_hit *, vertex *);
 
+/* Leaves of a vertex what the part of its light needs. False: nothing. */
+bool vertex_keep_part(vertex *, graze_part);
+
 /* A sensor at `point`, a little above it: a Lambertian surface whose radiance is the irradiance there. */
 vertex vertex_of_sensor(vec3 point, vec3 normal);
 

@@ -374,12 +374,15 @@ static void test_defaults_are_readable(void **state) {
 
 static graze_status handle_letter(void *target, const char *suffix, int count, const char *const *words, int *used,
                                   const graze_report *report) {
-    assert_int_equal(count, 0);
-    assert_null(words);
     assert_int_equal(*used, 0);
     if (!suffix[0] || suffix[1])
         return report_error(report, NULL, "bad letter '%s'", suffix);
     *(char *)target = suffix[0];
+    *used = suffix[0] == 'w';
+    if (*used > count)
+        return report_error(report, NULL, "no word");
+    if (*used)
+        assert_string_equal(words[0], "word");
     return GRAZE_OK;
 }
 
@@ -388,7 +391,7 @@ static void print_letter(void *target, FILE *out) {
         fprintf(out, "-c%c", *(char *)target);
 }
 
-/* Its letters stand at its name, and words behind it are let alone. */
+/* Its letters stand at its name, and words behind it are let alone unless it takes them. */
 static void test_handled_suffix(void **state) {
     (void)state;
     fixture f;
@@ -401,6 +404,9 @@ static void test_handled_suffix(void **state) {
                      .help = "letter",
                      .handle = handle_letter,
                      .print = print_letter});
+    assert_int_equal(RUN(&f, "-cw", "word", "a.rad"), GRAZE_OK);
+    assert_int_equal(f.count, 1);
+    assert_int_equal(RUN(&f, "-cw"), GRAZE_INPUT_ERROR);
     assert_int_equal(RUN(&f, "-cl", "a.rad"), GRAZE_OK);
     assert_int_equal(letter, 'l');
     assert_int_equal(f.count, 1);

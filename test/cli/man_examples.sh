@@ -147,7 +147,7 @@ done
 for page in man/man1/*.1; do
     check_options "$page"
 done
-for page in README.md man/man1/*.1; do
+for page in README.md man/man1/*.1 man/man7/*.7; do
     check_examples "$page"
 done
 # Every tool has its page.

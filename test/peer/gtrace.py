@@ -96,25 +96,35 @@ def standard_normal(t, freedom):
 class Case:
     """Radiance traces each of `parts`, whose light adds up to the scene's, with `repeat` repetitions."""
 
-    def __init__(self, name, scene, rays, options, peer_options="", repeat=64, samples=4096, parts=None, own_options=""):
+    def __init__(self, name, scene, rays, options, peer_options="", repeat=64, samples=4096, parts=None, own_options="", letter="v"):
         self.name, self.scene, self.parts, self.rays = name, scene, parts or [scene], np.asarray(rays, "<f4")
         self.options, self.peer_options, self.own_options = options.split(), peer_options.split(), own_options.split()
-        self.repeat, self.samples = repeat, samples
+        self.repeat, self.samples, self.letter = repeat, samples, letter
 
     def radiance(self, radiance):
         data = np.repeat(self.rays, self.repeat, axis=0).tobytes()
-        options = [*CONVERGED, *self.options, *self.peer_options, "-ff"]
+        options = [*CONVERGED, *self.options, *self.peer_options, "-ff", "-o" + self.letter]
         parts = [np.frombuffer(radiance.trace(part, options, data), "<f4") for part in self.parts]
         values = sum(part.reshape(len(self.rays), self.repeat, 3).astype(float) for part in parts)
         return values.mean(1), values.std(1, ddof=1) / np.sqrt(self.repeat), self.repeat - 1
 
     def graze(self):
+        if self.letter != "v":
+            return self.graze_repeated()
         # Four estimates a ray, of 16 independent replicates each, so that the error itself is known well enough.
         repeat = 4
         data = np.repeat(self.rays, repeat, axis=0).tobytes()
         options = [*self.options, *self.own_options, "--samples", str(self.samples // repeat), "--seed", SEED, "-ove", "-ff"]
         out = np.frombuffer(gtrace(self.scene, options, data), "<f4").reshape(len(self.rays), repeat, 6).astype(float)
         return out[:, :, :3].mean(1), np.sqrt((out[:, :, 3:] ** 2).sum(1)) / repeat, repeat * 15
+
+    def graze_repeated(self):
+        """Only values have an error of their own; of other letters it is that of their mean."""
+        repeat = 32
+        data = np.repeat(self.rays, repeat, axis=0).tobytes()
+        options = [*self.options, *self.own_options, "--samples", str(self.samples // repeat), "--seed", SEED, "-o" + self.letter, "-ff"]
+        out = np.frombuffer(gtrace(self.scene, options, data), "<f4").reshape(len(self.rays), repeat, 3).astype(float)
+        return out.mean(1), out.std(1, ddof=1) / np.sqrt(repeat), repeat - 1
 
     def results(self, radiance):
         r, r_error, r_freedom = self.radiance(radiance)
@@ -183,6 +193,52 @@ class Geometry:
         return abs(x - y) <= 2e-6 * max(abs(x), abs(y), 1)
 
 
+class Tree:
+    """Trace mode: what the surfaces at each depth contribute to each ray, on the average of many trees."""
+
+    def __init__(self, name, scene, rays, options, peer_options, paths, repeat=128):
+        self.name, self.scene, self.rays, self.repeat = name, scene, np.asarray(rays), repeat
+        self.options, self.peer_options, self.own_options = options.split(), peer_options.split(), ["--samples", str(paths), "--seed", SEED]
+
+    def contributions(self, output):
+        """For each ray, (depth, surface) -> its contribution in each tree."""
+        tables, tree, number = [{} for _ in self.rays], {}, 0
+        for line in output.decode().splitlines():
+            depth = len(line) - len(line.lstrip("\t"))
+            surface, *value = line.split()
+            tree[depth, surface] = tree.get((depth, surface), 0) + float(value[1])
+            if depth == 0:
+                for key, sum_of_tree in tree.items():
+                    tables[number // self.repeat].setdefault(key, []).append(sum_of_tree)
+                tree, number = {}, number + 1
+        if number != len(self.rays) * self.repeat:
+            raise RuntimeError(f"{number} trees, not {len(self.rays) * self.repeat}")
+        return tables
+
+    def mean_and_error(self, values):
+        values = np.array(values + [0] * (self.repeat - len(values)))
+        return values.mean(), values.std(ddof=1) / np.sqrt(self.repeat)
+
+    def results(self, radiance):
+        data = "".join(self.repeat * (" ".join(f"{x:.9g}" for x in ray) + "\n") for ray in self.rays).encode()
+        theirs = self.contributions(radiance.trace(self.scene, [*CONVERGED, *self.options, *self.peer_options, "-oTsV"], data))
+        ours = self.contributions(gtrace(self.scene, [*self.options, *self.own_options, "-oTsV"], data))
+        z, worst = [], ("", 0)
+        for index, (a, b) in enumerate(zip(theirs, ours)):
+            whole = max(np.mean(values) for (depth, _), values in [*a.items(), *b.items()] if depth == 0)
+            for key in sorted(a.keys() | b.keys()):
+                (r, r_error), (g, g_error) = self.mean_and_error(a.get(key, [])), self.mean_and_error(b.get(key, []))
+                if max(r, g) <= 0.01 * whole:
+                    continue
+                deviation = (g - r) / np.hypot(np.hypot(r_error, g_error), 1e-5 * max(r, g))
+                z.append(standard_normal(deviation, self.repeat - 1))
+                if abs(z[-1]) > worst[1]:
+                    worst = (f"ray {index} depth {key[0]} {key[1]}: rtrace {r:.6g} +- {r_error:.2g}, gtrace {g:.6g} +- {g_error:.2g}", abs(z[-1]))
+        depths = {depth for table in theirs for depth, _ in table}
+        good = len(z) > 1.5 * len(self.rays) and worst[1] <= 4.5
+        return [(good, "every surface at every depth")], [f"{len(z)} contributions from depths {sorted(depths)}", f"worst: {worst[0]}, z = {worst[1]:.2f}"]
+
+
 def normalized(v):
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
 
@@ -234,6 +290,19 @@ def cases():
                samples=16384, parts=["brushed brushed_panel", "brushed brushed_shadow brushed_glows"])
     yield Case("facing mirrors", "mirrors", aim([0.3, 1, 1.2], grid([-0.9, 0, 0.1], [0.9, 0, 1.9], 100, random)),
                "-ab 0", repeat=64)
+    other = np.random.default_rng(20100402)
+    across = aim([0.3, 1, 1.2], grid([-0.9, 0, 0.1], [0.9, 0, 1.9], 49, other))
+    across[:, 3:] *= np.where(np.arange(len(across)) % 2, 1, -1)[:, None]
+    yield Case("facing mirrors, what they show", "mirrors", across, "-ab 0", repeat=64, letter="r")
+    yield Case("facing mirrors, the rest", "mirrors", across, "-ab 0", repeat=64, letter="x")
+    walls = aim([3.2, 0.4, 1.5], grid([0.2, 2.9, 0.1], [3.8, 2.9, 2.3], 16, other))
+    yield Case("box, irradiance where rays hit", "box", walls, "-i -ab 1", "-ad 2048", repeat=64, samples=32768)
+    yield Case("box, white walls left out of interreflection", "box", room[::3], "-I -ab 2 -av .3 .2 .1 -ae white", "-ad 1024",
+               repeat=64, samples=32768)
+    yield Case("box, interreflection on red and green walls alone", "box", room[1::3], "-I -ab 2 -av .3 .2 .1 -ai red -ai green",
+               "-ad 1024", repeat=64, samples=32768)
+    yield Tree("trees, facing mirrors", "mirrors", across[14:35], "-ab 0", "", 16)
+    yield Tree("trees, box, two bounces", "box", walls[::2], "-ab 2", "-ad 16 -ds 0", 64)
     along = 10 ** random.uniform(0.4, 1.6, 120)
     yield Case("grazing plane", "grazing", aim([0, 0, 0.1], np.c_[random.uniform(-0.05, 0.05, 120) * along, along, 0 * along]),
                "-ab 0", "-ss 64 -ds .001", repeat=512, samples=8192)
@@ -247,8 +316,10 @@ def cases():
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]
     shapes = np.vstack([np.c_[towards, away], inside]).astype("<f4")
     yield Geometry("shapes", "shapes", shapes, "odpLNnsmM")
-    yield Geometry("shapes", "shapes", shapes, "lws")
+    yield Geometry("shapes", "shapes", shapes, "lXws")
     yield Geometry("box", "box", room, "pLNs")
+    # The effective length, by way of mirrors, which rtrace 6.0 follows only where their material is `mirror`.
+    yield Geometry("box", "box", room, "lRs")
     yield Geometry("turned plate", "brushed brushed_panel brushed_glows", np.vstack([inside, np.c_[0.3 * towards, away]]).astype("<f4"), "LpnNsM")
 
 

@@ -28,7 +28,22 @@ grey sphere ball 0 0 4  0 0 0 1
 void light lamp_light 0 0 3 100 100 100
 lamp_light sphere lamp 0 0 4  2 -3 4 .3
 END
+# White mirrors, whose reflectance has no Fresnel term: trees of rays without a random number.
+cat >mirrors.rad <<'END'
+void metal mirror 0 0 5 1 1 1 1 0
+void alias silver mirror
+void glow red 0 0 4 3 .5 .25 0
+void glow blue 0 0 4 .125 .5 4 0
+void glow dusk 0 0 4 .3 .2 .6 0
+mirror polygon left 0 0 12 -1 -2 -2  -1 4 -2  -1 4 2  -1 -2 2
+silver polygon right 0 0 12 1.5 -2 -2  1.5 -2 2  1.5 4 2  1.5 4 -2
+mirror sphere ball 0 0 4 .2 1.5 0 .4
+red ring coal 0 0 8 0 4 0 0 -1 0 0 .9
+blue polygon tile 0 0 12  -1 -2 -1  1.5 -2 -1  1.5 -2 1  -1 -2 1
+dusk source sky 0 0 4  0 0 1 100
+END
 oconv glows.rad >glows.oct
+oconv mirrors.rad >mirrors.oct
 view='-vp .2 -4 .3 -vd -.05 1 -.04 -vu .1 0 1'
 size='-x 61 -y 47'
 views=("-vtv $view -vh 60 -vv 50 -vs .1 -vl -.2" "-vtl $view -vh 5 -vv 4" "-vtc $view -vh 120 -vv 60"
@@ -69,11 +84,61 @@ header_fields() {
     grep -q 'FORMAT= *float' header && grep -q 'NCOMP=4' header && grep -q BigEndian=0 header || { cat header; return 1; }
 }
 same_numbers_as_rtrace() { same "$(gtrace -h -ovLsN glows.rad <rays.txt)" "$(rtrace -h -w -ovLsN glows.oct <rays.txt)"; }
+# rtrace's answers beside gtrace's, among the mirrors: both_trace OPTIONS. It leaves the normals of sources uninitialised, so n
+# and N are asked of rays that meet none.
+mirror_rays() { cnt 20 | rcalc -of -e '$1=$1/10-.97;$2=-1.9;$3=.13;$4=sin($1*37);$5=1;$6=cos($1*91)/4'; }
+both_trace() {
+    mirror_rays | rtrace -w -h -lr 3 -st 0 -ffa "$@" mirrors.oct >theirs.txt && mirror_rays | gtrace -h -lr 3 -ffa "$@" mirrors.rad >ours.txt &&
+        [ -s ours.txt ] && diff theirs.txt ours.txt
+}
+trees_of_rtrace() { both_trace -otodvVwWLcpsmMrxX~; }
+trees_with_shadows() { both_trace -oTsV; }
+answers_behind_trees() { both_trace -oovots; }
+excluded_from_trees() { both_trace -te silver -te dusk -otmv; }
+included_in_trees() { both_trace -ti red -otmv; }
+lists_in_files() {
+    printf 'silver\n  dusk\tblue' >list
+    both_trace -tE list -otmv && both_trace -tI list -otmv
+}
+mirrored_parts() { both_trace -orxX; }
+normals_of_trees() { both_trace -te dusk -otnN; }
+empty_records() {
+    rays() { echo 0 0 0 0 1 0; echo 1 2 3 0 0 0; echo 0 0 0 0 -1 0; }
+    same "$(rays | gtrace -h "$@" mirrors.rad)" "$(rays | rtrace -h -w -lr 3 -st 0 "$@" mirrors.oct)"
+}
+every_letter_of_nothing() {
+    local letters=odvVwWlLcpnNsmMrRxX~
+    same "$(echo 1 2 3 0 0 0 | gtrace -h -w -o$letters mirrors.rad)" "$(echo 1 2 3 0 0 0 | rtrace -h -w -o$letters mirrors.oct)"
+}
+numbers_in_headers() {
+    local letters
+    for letters in v oovs odVWrx smM~ lLRXw; do
+        same "$(gtrace -w -ff -o$letters "$@" glows.rad </dev/null | getinfo | grep -E 'NCOMP|FORMAT')" \
+            "$(rtrace -w -ff -o$letters "$@" glows.oct </dev/null | getinfo | grep -E 'NCOMP|FORMAT')" || return 1
+    done
+}
+# colors PART OPTION...: values and contributions in other colors, to such a part of their sum.
+colors() {
+    local part=$1
+    shift
+    rtrace -w -h "$@" -ovV glows.oct <rays.txt >theirs.txt && gtrace -w -h "$@" -ovV glows.rad <rays.txt >ours.txt || return 1
+    paste theirs.txt ours.txt | awk -v part="$part" '{
+        sum = 0; for (i = 1; i <= NF / 2; i++) sum += $i
+        for (i = 1; i <= NF / 2; i++) { d = $i - $(i + NF / 2); if (d > part * sum || -d > part * sum) { print; bad = 1 } }
+        lit += sum > 0 } END { exit bad || lit < 5 }'
+}
+color_bytes() {
+    gtrace -ffc -pXYZ glows.rad <rays.flt >ours.xyz && rtrace -w -ffc -pXYZ glows.oct <rays.flt >theirs.xyz || return 1
+    same "$(getinfo <ours.xyz | grep FORMAT)" "$(getinfo <theirs.xyz | grep FORMAT)" &&
+        same "$(getinfo <ours.xyz | awk '/PRIMARIES/ { printf "%.4f %.4f %.4f\n", $2, $5, $9 }')" \
+            "$(getinfo <theirs.xyz | awk '/PRIMARIES/ { printf "%.4f %.4f %.4f\n", $2, $5, $9 }')" &&
+        paste <(getinfo - <ours.xyz | od -An -v -tu1 -w4) <(getinfo - <theirs.xyz | od -An -v -tu1 -w4) |
+        awk '{ for (i = 1; i <= 4; i++) { d = $i - $(i + 4); if (d > 1 || d < -1) { print; bad = 1 } } } END { exit bad || NR != 20 }'
+}
 double_precision() { same "$(rcalc -od -if6 -e '$1=$1;$2=$2;$3=$3;$4=$4;$5=$5;$6=$6' rays.flt | gtrace -h -fdd glows.rad | rcalc -id3 -e '$1=$1;$2=$2;$3=$3')" \
     "$(gtrace -h -fff glows.rad <rays.flt | rcalc -if3 -e '$1=$1;$2=$2;$3=$3')"; }
 defaults_of_rtrace() {
-    # Mist and photon maps, which Graze has not.
-    rtrace -defaults | sed -e 's/#.*//' -e '/^-m[eags] /d' -e '/^-am /d' >rtrace.options
+    rtrace -defaults | sed -e 's/#.*//' >rtrace.options
     same "$(gtrace @rtrace.options -h- glows.rad <rays.txt)" "$(gtrace -h glows.rad <rays.txt)"
 }
 
@@ -112,6 +177,24 @@ quiet "rays by rcalc, ASCII and float; answers back into rcalc" rays_by_rcalc
 quiet "getinfo - strips the header of binary answers" header_stripped
 quiet "the header names format, components and byte order" header_fields
 quiet "ASCII answers are rtrace's to the letter" same_numbers_as_rtrace
+quiet "trees of rays are rtrace's to the letter" trees_of_rtrace
+quiet "... with shadow rays, of which there are none" trees_with_shadows
+quiet "... with answers behind them" answers_behind_trees
+quiet "... without some modifiers" excluded_from_trees
+quiet "... of one modifier alone" included_in_trees
+quiet "... by files of names" lists_in_files
+quiet "... normals" normals_of_trees
+quiet "what mirrors show, and the rest" mirrored_parts
+quiet "directions of zero ask for rtrace's empty records" empty_records -ovLs
+quiet "... behind trees" empty_records -ovts
+quiet "... of every letter" every_letter_of_nothing
+quiet "headers count rtrace's numbers" numbers_in_headers
+quiet "... of one-number colors" numbers_in_headers -pY
+for p in -pXYZ -pY -pS -pM -pA; do quiet "colors: $p" colors 2e-6 $p; done
+# Radiance has the inverse of its sensors' matrix to four digits.
+quiet "colors: -pc" colors 2e-4 -pc .7 .3 .2 .7 .15 .05 .3127 .3290
+quiet "colors: -pc of Radiance's own primaries" colors 2e-4 -pc .640 .330 .290 .600 .150 .060 .3333 .3333
+quiet "four-byte XYZ" color_bytes
 quiet "doubles in and out" double_precision
 quiet "what rtrace -defaults prints are options" defaults_of_rtrace
 for v in "${views[@]}"; do

@@ -13,7 +13,7 @@
 #define TURN_SECONDS   1e-3
 #define FIRST_TURN     8
 #define TURN_GROWTH    4
-#define TURNS_A_THREAD 32
+#define TURNS_A_THREAD 16
 
 typedef struct chunk {
     record_chunk records;

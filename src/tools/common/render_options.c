@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "tools/common/model_name.h"
+#include "tools/common/peer_options.h"
 
 render_options render_options_default(double error) {
     graze_trace_settings defaults = graze_trace_defaults();
@@ -20,7 +21,8 @@ render_options render_options_default(double error) {
         .error = error,
         .sample_limit = (int)defaults.sample_limit,
         .strategy = "mis",
-        .color = "RGB",
+        .components = 3,
+        .ambient_modifiers = {.letter = 'a'},
     };
     o.ignored.ambient_accuracy = 0.1;
     o.ignored.ambient_resolution = 256;
@@ -105,8 +107,26 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
          1000000, NULL, NULL},
         {"-lw", OPTION_REAL, &o->minimum_weight, "W", "weight below which paths play roulette or end", 0, 1, NULL,
          NULL},
-        {"-p", OPTION_SUFFIX, &o->color, "RGB", "Radiance's red, green and blue; nothing else yet", 0, 0, NULL, NULL},
+        {"-ae", OPTION_CUSTOM, &o->ambient_modifiers, "MODIFIER", "no diffuse interreflection on surfaces of it", 0, 0,
+         modifier_list_exclude, modifier_list_print},
+        {"-aE", OPTION_CUSTOM, &o->ambient_modifiers, "FILE", "... of those in the file", 0, 0,
+         modifier_list_exclude_file, NULL},
+        {"-ai", OPTION_CUSTOM, &o->ambient_modifiers, "MODIFIER", "diffuse interreflection on surfaces of it alone", 0,
+         0, modifier_list_include, NULL},
+        {"-aI", OPTION_CUSTOM, &o->ambient_modifiers, "FILE", "... of those in the file", 0, 0,
+         modifier_list_include_file, NULL},
+        {"", OPTION_HEADING, NULL, NULL, "Colors and messages", 0, 0, NULL, NULL},
+        {"-p", OPTION_SUFFIX, &o->color, "RGB", "colors of values: RGB XYZ Y S M A, or c and 8 chromaticities", 0, 0,
+         output_color_take, output_color_print},
         {"-w", OPTION_FLAG, &o->warnings, NULL, "warnings", 0, 0, NULL, NULL},
+        {"-e", OPTION_CUSTOM, &o->error_file, "FILE", "append messages to it; a definition (with = or :) is ignored", 0,
+         0, peer_take_expression, peer_print_error_file},
+        {"", OPTION_HEADING, NULL, NULL, "Refused unless they change nothing", 0, 0, NULL, NULL},
+        {"-me", OPTION_REAL3, o->mist_extinction, "R G B", "mist everywhere: 0 0 0, there is none", 0, INFINITY, NULL,
+         NULL},
+        {"-co", OPTION_FLAG, &o->all_components, NULL, "print all components of spectra: 3", 0, 0, NULL, NULL},
+        {"-cs", OPTION_INTEGER, &o->components, "N", "components of spectra; with -co+, 3 at most", 1, 1000, NULL,
+         NULL},
         {"", OPTION_HEADING, NULL, NULL, "Accepted for Radiance's sake, without effect", 0, 0, NULL, NULL},
         {"-aa", OPTION_REAL, &o->ignored.ambient_accuracy, "A", "ambient accuracy", 0, INFINITY, NULL, NULL},
         {"-ar", OPTION_INTEGER, &o->ignored.ambient_resolution, "N", "ambient resolution", 0, 2147483647, NULL, NULL},
@@ -123,6 +143,17 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
         {"-dr", OPTION_INTEGER, &o->ignored.direct_relays, "N", "virtual source relays", 0, 2147483647, NULL, NULL},
         {"-dp", OPTION_INTEGER, &o->ignored.direct_pretest, "N", "virtual source pretest density", 0, 2147483647, NULL,
          NULL},
+        {"-ap", OPTION_CUSTOM, NULL, "FILE [N [N]]", "photon map: not read", 0, 0, peer_take_photon_map, NULL},
+        {"-am", OPTION_REAL, &o->ignored.photon_radius, "R", "photon search radius", 0, INFINITY, NULL, NULL},
+        {"-ac", OPTION_TEXT, &o->ignored.photon_page, "N", "photon cache page", 0, 0, NULL, NULL},
+        {"-aC", OPTION_TEXT, &o->ignored.photon_cache, "N", "photon cache size", 0, 0, NULL, NULL},
+        {"-ma", OPTION_REAL3, o->ignored.mist_albedo, "R G B", "mist albedo", 0, 1, NULL, NULL},
+        {"-mg", OPTION_REAL, &o->ignored.mist_eccentricity, "G", "mist eccentricity", -1, 1, NULL, NULL},
+        {"-ms", OPTION_REAL, &o->ignored.mist_distance, "D", "mist sampling distance", 0, INFINITY, NULL, NULL},
+        {"-cw", OPTION_CUSTOM, NULL, "NM NM", "range of wavelengths", 0, 0, peer_take_wavelengths, NULL},
+        {"-f", OPTION_CUSTOM, NULL, "FILE", "definitions for function files", 0, 0, peer_take_definitions, NULL},
+        {"-P", OPTION_CUSTOM, NULL, "FILE", "persistent server (also -PP): the scene is loaded anew", 0, 0,
+         peer_take_persist, NULL},
         {"-ss", OPTION_REAL, &o->ignored.specular_sampling, "N", "specular sampling: the whole lobe always is", 0,
          INFINITY, NULL, NULL},
         {"-u", OPTION_FLAG, &o->ignored.uncorrelated, NULL, "uncorrelated sampling", 0, 0, NULL, NULL},
@@ -147,8 +178,10 @@ static graze_status read_strategy(const char *name, graze_strategy *strategy, co
 
 graze_status render_options_settings(const render_options *o, bool sensor, graze_trace_settings *s,
                                      const graze_report *report) {
-    if (strcmp(o->color, "RGB") != 0)
-        return report_error(report, NULL, "option '-p%s' is not supported yet", o->color);
+    if (o->mist_extinction[0] > 0 || o->mist_extinction[1] > 0 || o->mist_extinction[2] > 0)
+        return report_error(report, NULL, "option '-me': mist is not supported yet");
+    if (o->all_components && o->components > 3)
+        return report_error(report, NULL, "options '-co' and '-cs': spectra are not supported yet");
     *s = graze_trace_defaults();
     s->quantity = sensor ? GRAZE_IRRADIANCE : o->irradiance ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
     s->ambient_bounces = o->ambient_divisions > 0 ? o->ambient_bounces : 0;
@@ -168,5 +201,21 @@ graze_status render_options_settings(const render_options *o, bool sensor, graze
 }
 
 graze_scene_settings render_options_scene(const render_options *o) {
-    return (graze_scene_settings){.threads = o->threads, .models = o->models.choices, .model_count = o->models.count};
+    return (graze_scene_settings){
+        .threads = o->threads,
+        .models = o->models.choices,
+        .model_count = o->models.count,
+        .ambient_modifiers = o->ambient_modifiers.names,
+        .ambient_modifier_count = o->ambient_modifiers.count,
+        .ambient_modifiers_included = o->ambient_modifiers.include,
+    };
+}
+
+graze_status render_options_begin(const render_options *o, const tool_arguments *arguments,
+                                  const graze_report *report) {
+    return o->error_file ? tool_redirect_messages(o->error_file, arguments, report) : GRAZE_OK;
+}
+
+void render_options_free(render_options *o) {
+    modifier_list_free(&o->ambient_modifiers);
 }

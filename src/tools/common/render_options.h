@@ -6,6 +6,9 @@
 
 #include "base/options.h"
 #include "graze/trace.h"
+#include "tools/common/modifier_list.h"
+#include "tools/common/output_color.h"
+#include "tools/common/tool.h"
 
 #define RENDER_MODEL_LIMIT 32
 
@@ -23,13 +26,20 @@ typedef struct render_options {
     double ambient_value[3];
     double minimum_weight, specular_threshold, error, floor;
     int samples, sample_limit, seed;
-    const char *strategy, *color;
+    const char *strategy;
+    output_color_option color;
     model_options models;
+    modifier_list ambient_modifiers;
+    const char *error_file; /* null: standard error */
+    bool all_components;    /* -co */
+    int components;         /* -cs */
+    double mist_extinction[3];
     /* Accepted so that Radiance's command lines work; Graze has nothing that they could steer. */
     struct {
         double ambient_accuracy, direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
+        double photon_radius, mist_albedo[3], mist_eccentricity, mist_distance;
         int ambient_weight, ambient_resolution, ambient_supersamples, direct_relays, direct_pretest;
-        const char *ambient_file;
+        const char *ambient_file, *photon_page, *photon_cache;
         bool uncorrelated;
     } ignored;
 } render_options;
@@ -37,10 +47,15 @@ typedef struct render_options {
 render_options render_options_default(double error);
 
 /* How many entries render_options_table fills. */
-#define RENDER_OPTION_COUNT 35
+#define RENDER_OPTION_COUNT 55
 
 /* Fills in table entries that store into the options. */
 void render_options_table(render_options *, option table[RENDER_OPTION_COUNT]);
+
+void render_options_free(render_options *);
+
+/* What must come before any message: sends them to the file of -e. */
+graze_status render_options_begin(const render_options *, const tool_arguments *, const graze_report *);
 
 /* Turns the values into settings, checked. `sensor` is rtrace's -I. */
 graze_status render_options_settings(const render_options *, bool sensor, graze_trace_settings *, const graze_report *);

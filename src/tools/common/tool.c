@@ -2,9 +2,11 @@
 #define _XOPEN_SOURCE 700 /* SIGXFSZ */
 #include "tools/common/tool.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdint.h>
 #include <string.h>
+#include <unistd.h>
 
 int tool_main(const option_table *table, int argc, char **argv, const graze_report *report,
               graze_status (*run)(void *user, const tool_arguments *, const graze_report *), void *user) {
@@ -31,6 +33,20 @@ static void drop_warnings(void *user, graze_severity severity, const char *text)
 
 graze_report tool_report(const graze_report *report, bool warnings) {
     return warnings ? *report : (graze_report){drop_warnings, (void *)(uintptr_t)report};
+}
+
+graze_status tool_redirect_messages(const char *file, const tool_arguments *arguments, const graze_report *report) {
+    char command[TOOL_COMMAND_SIZE];
+    int descriptor = open(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return report_file_error(report, NULL, "cannot append messages to %s", file);
+    bool moved = dup2(descriptor, STDERR_FILENO) >= 0;
+    close(descriptor);
+    if (!moved)
+        return report_system_error(report, NULL, "cannot append messages to %s", file);
+    options_command_line(command, sizeof command, arguments->argc, arguments->argv);
+    fprintf(stderr, "**************\n*** PID %ld: %s\n\n", (long)getpid(), command);
+    return GRAZE_OK;
 }
 
 graze_status tool_check_scenes(const tool_arguments *arguments, bool input_taken, const graze_report *report) {

@@ -23,6 +23,9 @@ int tool_main(const option_table *, int argc, char **argv, const graze_report *,
 /* The report of a run: without warnings where they are not wanted (-w-). The one given must outlive it. */
 graze_report tool_report(const graze_report *, bool warnings);
 
+/* Appends what would go to standard error to a file from now on, behind a line with the process and its command. */
+graze_status tool_redirect_messages(const char *file, const tool_arguments *, const graze_report *);
+
 /* Checks that there is a scene, and that standard input, which is `-`, is at most one of them, or none where it is
  * taken already. */
 graze_status tool_check_scenes(const tool_arguments *, bool input_taken, const graze_report *);

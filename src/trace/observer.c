@@ -1,0 +1,56 @@
+/* Rays as an observer is told of them. */
+#include "trace/observer.h"
+
+static void tell(const path *p, const path_event *event) {
+    p->context->observer->tell(p->context->observer->user, event);
+}
+
+static double quotient(double contribution, double radiance) {
+    return radiance > 0 ? contribution / radiance : 0;
+}
+
+static rgb share(rgb contribution, rgb radiance) {
+    return (rgb){quotient(contribution.r, radiance.r), quotient(contribution.g, radiance.g),
+                 quotient(contribution.b, radiance.b)};
+}
+
+void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contribution) {
+    path_event event = {.kind = PATH_RAY,
+                        .depth = p->depth,
+                        .mirrored = p->last.lobe == GRAZE_LOBE_MIRROR,
+                        .origin = origin,
+                        .hit = *hit,
+                        .coefficient = p->throughput,
+                        .contribution = contribution};
+    if (hit->light >= 0) {
+        const scene_light *light = &p->context->scene->lights[hit->light];
+        event.radiance = event.mirrored ? light_radiance(light, hit->direction, hit->normal)
+                                        : light_radiance_at(light, hit->direction, hit->normal, hit->distance);
+        event.coefficient = share(contribution, event.radiance);
+    }
+    tell(p, &event);
+}
+
+void observe_shadow_ray_told(const path *p, vec3 origin, const light_sample *sample, rgb contribution) {
+    const scene_light *light = &p->context->scene->lights[sample->light];
+    path_event event = {.kind = PATH_SHADOW,
+                        .depth = p->depth + 1,
+                        .origin = origin,
+                        .radiance = sample->radiance,
+                        .coefficient = share(contribution, sample->radiance),
+                        .contribution = contribution};
+    event.hit = (path_hit){.surface = light->surface,
+                           .light = sample->light,
+                           .distance = sample->distance,
+                           .point = origin,
+                           .direction = sample->direction};
+    if (light->shape) {
+        event.hit.point = vec3_add_scaled(origin, sample->distance, sample->direction);
+        event.hit.normal = shape_normal(light->shape, event.hit.point);
+    }
+    tell(p, &event);
+}
+
+void observe_surface_told(const path *p, rgb contribution) {
+    tell(p, &(path_event){.kind = PATH_SURFACE, .contribution = contribution});
+}
