@@ -38,18 +38,18 @@ static void find_bounds(geometry *g, size_t count) {
     for (size_t i = 0; i < count; i++) {
         vec3 a, b;
         shape_bounds(&g->shapes[i], &a, &b);
+        g->reach[i] = fmax(vec3_max_abs(a), vec3_max_abs(b));
+        g->largest_reach = fmax(g->largest_reach, g->reach[i]);
         lower = vec3_make(fmin(lower.x, a.x), fmin(lower.y, a.y), fmin(lower.z, a.z));
         upper = vec3_make(fmax(upper.x, b.x), fmax(upper.y, b.y), fmax(upper.z, b.z));
     }
     vec3 half = vec3_scale(0.5, vec3_subtract(upper, lower));
     g->center = vec3_add(lower, half);
-    double reach = vec3_max_abs(half);
     int exponent;
-    frexp(reach, &exponent);
+    frexp(vec3_max_abs(half), &exponent);
     g->scale = ldexp(1, -exponent - 1);
     /* At most sqrt(3) times the half-width that the scale brings below 1/2; a little more takes in roundings. */
     g->radius = (1 + 1e-9) * vec3_length(vec3_scale(g->scale, half)) / g->scale + 1e-15 * vec3_max_abs(g->center);
-    g->near = 1e-6 * fmin(1, 2 * reach);
 }
 
 vec3 geometry_corner(const geometry *g, const geometry_triangle *triangle, int corner) {
@@ -246,9 +246,13 @@ graze_status geometry_build(geometry **made, const shape *shapes, size_t count, 
     if (!g)
         return report_out_of_memory(report);
     g->shapes = shapes;
-    find_bounds(g, count);
+    g->reach = malloc((count + 1) * sizeof *g->reach);
+    if (g->reach)
+        find_bounds(g, count);
     graze_status status = GRAZE_OK;
-    if (count > INT_MAX)
+    if (!g->reach)
+        status = report_out_of_memory(report);
+    else if (count > INT_MAX)
         status = report_error(report, NULL, "too many surfaces");
     else if (!collect_surfaces(g, count))
         status = report_out_of_memory(report);
@@ -272,6 +276,7 @@ void geometry_destroy(geometry *g) {
     if (g->device)
         rtcReleaseDevice(g->device);
     free(g->triangles);
+    free(g->reach);
     free(g->curved);
     free(g);
 }

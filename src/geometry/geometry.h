@@ -34,13 +34,17 @@ graze_status geometry_build(geometry **, const shape *shapes, size_t count, int 
 void geometry_destroy(geometry *);
 
 /* The nearest hit, or false. Safe on any number of threads. A ray that is not finite hits nothing.
- * As in Radiance, what is at most 1e-6 from the origin is not hit (less in scenes smaller than 1), so that a surface
- * which lies on the one that the ray leaves does not stop it; but a surface that meets that one at an angle is hit
- * however close it is. Of surfaces that coincide within that distance, one whose front the ray meets is hit, and among
- * those one that shines; among equals the later one. */
+ *
+ * Nothing here depends on the size of the scene. Surfaces coincide that are parallel, and no farther apart than their
+ * own coordinates tell: as single precision rounds them, but no more than Radiance's 1e-6; or as 12 digits round them.
+ * Of those that coincide, one whose front the ray meets is hit, and among those one that shines; among equals the later
+ * one. What coincides with the surface that the ray leaves is not hit at its origin, but a surface that meets that one
+ * at an angle is hit however close it is. A ray that leaves no surface does not hit what is within 1e-6 of its origin,
+ * as in Radiance, or within a millionth of the origin's largest coordinate where that is less. */
 bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
-/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far`, by more than that 1e-6;
- * or coincides with the target there and is hit in its place, as one that shines is in place of one that does not. */
+/* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far` and does not coincide with
+ * the target there (without one: is not that close to the end); or does and is hit in its place, as one that shines is
+ * in place of one that does not. */
 bool geometry_occluded(const geometry *, const geometry_ray *, int target);
 
 #endif

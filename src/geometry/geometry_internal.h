@@ -39,10 +39,11 @@ struct geometry {
     vec3 center;
     double radius;                /* around the center; holds all */
     double scale;                 /* a power of two that makes the radius at most 1 */
-    double near;                  /* crossings at most this far from a ray's origin are at its origin */
     geometry_triangle *triangles; /* by Embree's primitive numbers; aligned to cache lines */
     size_t triangle_count;
-    int *curved; /* the surfaces that are no polygons, by Embree's primitive numbers */
+    double *reach;        /* each surface's largest coordinate */
+    double largest_reach; /* of all */
+    int *curved;          /* the surfaces that are no polygons, by Embree's primitive numbers */
     size_t curved_count;
 };
 

@@ -18,14 +18,27 @@
 /* By so many errors of single precision Embree's rays are longer at both ends. */
 #define ENDS 64
 
-/* A surface goes through a point where it is no farther from it than this times the scene's coordinates: the roundings
- * of a point computed on it. */
+/* A surface goes through a point where it is no farther from it than this times the coordinates of both: the roundings
+ * of a point computed on it, and of the distance. */
 #define ON_SURFACE (16 * DBL_EPSILON)
-/* Sine of the angle up to which two surfaces lie on one another. */
-#define PARALLEL 1e-6
+/* Surfaces that are meant to coincide differ by what writing them down has cost, in proportion to their coordinates:
+ * with 12 digits, as Radiance's xform does, by DESCRIBED (half a digit in each of three coordinates of two surfaces,
+ * and twice that where the larger goes beyond the smaller); in single precision by SINGLE, but that counts only up to
+ * Radiance's own tolerance, its FTINY. */
+#define DESCRIBED 0x1p-34
+#define SINGLE    0x1p-22
+#define FTINY     1e-6
+/* The sine of the angle up to which they may be turned against each other: where they are as close as double precision
+ * tells, small ones that are far from the origin may be, by more. */
+#define PARALLEL         1e-6
+#define PARALLEL_TOUCHES 1e-4
+/* An origin that is given from outside is as good as its first digits. */
+#define GIVEN_ORIGIN 1e-6
 
 typedef struct candidate {
     double distance;
+    vec3 normal;
+    double slope; /* cosine between ray and normal */
     int surface;
     bool shines;
     const geometry_triangle *triangle; /* null where the surface is curved */
@@ -42,11 +55,12 @@ typedef struct query {
     embree_context context; /* first, since Embree hands on its address */
     const geometry *geometry;
     vec3 origin, direction;
-    double far; /* crossings beyond are none */
+    double size;    /* the origin's largest coordinate */
+    double at_once; /* crossings up to here are at the origin */
+    double far;     /* crossings beyond are none; where `any` is asked, but for what coincides with the target */
     int from, target;
     bool any; /* whether something blocks the ray is all that is asked */
     bool found_any;
-    double clear; /* crossings beyond coincide with the ray's end, where `any` is asked */
     double start; /* distance along the ray of Embree's origin: where it enters the scene, a little before */
     double end;   /* and where it leaves the scene or comes to its own end, a little behind */
     candidate nearest, nearest_front, nearest_shining;
@@ -61,10 +75,35 @@ static double float_error(const query *q) {
     return GEOMETRY_FLOAT_ERROR / q->geometry->scale;
 }
 
+/* How far apart surfaces of such coordinates may be found that are meant to coincide. */
+static double coincidence(const query *q, double coordinates) {
+    return fmax(DESCRIBED * coordinates, fmin(SINGLE * coordinates, FTINY)) + ON_SURFACE * q->size;
+}
+
+/* The larger of two surfaces' coordinates. */
+static double reach_of(const query *q, int a, int b) {
+    return fmax(q->geometry->reach[a], q->geometry->reach[b]);
+}
+
+/* Whether surfaces that are so far apart, with these coordinates and normals, are meant to coincide. */
+static bool coincide(const query *q, double apart, double coordinates, vec3 normal, vec3 other) {
+    if (apart > coincidence(q, coordinates))
+        return false;
+    bool touches = apart <= DESCRIBED * coordinates + ON_SURFACE * q->size;
+    return vec3_length(vec3_cross(normal, other)) <= (touches ? PARALLEL_TOUCHES : PARALLEL);
+}
+
+static bool candidates_coincide(const query *q, const candidate *a, const candidate *b) {
+    if (a->surface < 0 || b->surface < 0)
+        return false;
+    double apart = fabs((a->distance - b->distance) * a->slope);
+    return coincide(q, apart, reach_of(q, a->surface, b->surface), a->normal, b->normal);
+}
+
 /* Embree's own distance at which to stop looking when a surface is met at `t`, under a cosine of `slope`: behind what
  * it takes for the distance of surfaces that coincide with this one. */
 static float embree_limit(const query *q, double t, double slope) {
-    double limit = t + float_error(q) / fabs(slope) + q->geometry->near;
+    double limit = t + (float_error(q) + coincidence(q, q->geometry->largest_reach)) / fabs(slope);
     return (float)(((limit < q->end ? limit : q->end) - q->start) * q->geometry->scale);
 }
 
@@ -75,52 +114,69 @@ static bool is_before(const candidate *a, const candidate *b) {
 /* Of shining surfaces that coincide the last one is hit, whichever of them roundings make the nearest: so that
  * blocks() can tell. */
 static bool outshines(const query *q, const candidate *a, const candidate *b) {
-    double ahead = b->distance - a->distance, near = q->geometry->near;
-    return ahead > near || (ahead >= -near && a->surface > b->surface);
+    return candidates_coincide(q, a, b) ? a->surface > b->surface : a->distance < b->distance;
+}
+
+/* Whether a crossing close to the end of a shadow ray coincides with the target there. */
+static bool is_at_target(const query *q, const candidate *c) {
+    double apart = fabs((q->far - c->distance) * c->slope);
+    if (q->target < 0)
+        return apart <= coincidence(q, q->geometry->reach[c->surface]);
+    vec3 end = vec3_add_scaled(q->origin, q->far, q->direction);
+    vec3 normal = shape_normal(&q->geometry->shapes[q->target], end);
+    return coincide(q, apart, reach_of(q, c->surface, q->target), c->normal, normal);
 }
 
 /* Whether a crossing keeps the ray from its end. What coincides with the target does not, unless it is what
  * geometry_intersect would find there. */
-static bool blocks(const query *q, const candidate *c, double slope) {
-    if (c->distance <= q->clear)
-        return true;
-    if (q->target < 0 || !c->shines || slope >= 0)
+static bool blocks(const query *q, const candidate *c) {
+    const geometry *g = q->geometry;
+    double ahead = q->far - c->distance;
+    if (fabs(ahead * c->slope) > coincidence(q, g->largest_reach) || !is_at_target(q, c))
+        return ahead >= 0;
+    if (q->target < 0 || !c->shines || c->slope >= 0)
         return false;
-    return !q->geometry->shapes[q->target].shines || c->surface > q->target;
+    return !g->shapes[q->target].shines || c->surface > q->target;
 }
 
-/* Takes a crossing into account, `slope` being the cosine between ray and normal; true where that shortens the search.
- */
-static bool offer(query *q, candidate c, double slope) {
+/* Takes a crossing into account; true where that shortens the search. */
+static bool offer(query *q, candidate c) {
     if (q->any) {
-        q->found_any = q->found_any || blocks(q, &c, slope);
+        q->found_any = q->found_any || blocks(q, &c);
         return q->found_any;
     }
-    if (slope < 0 && is_before(&c, &q->nearest_front))
+    bool front = c.slope < 0;
+    if (front && is_before(&c, &q->nearest_front))
         q->nearest_front = c;
-    if (slope < 0 && c.shines && outshines(q, &c, &q->nearest_shining))
+    if (front && c.shines && outshines(q, &c, &q->nearest_shining))
         q->nearest_shining = c;
     if (!is_before(&c, &q->nearest))
         return false;
     q->nearest = c;
-    q->limit = embree_limit(q, c.distance, slope);
+    q->limit = embree_limit(q, c.distance, c.slope);
     return true;
 }
 
-/* Whether a crossing close to the ray's origin is at its origin. `slope`: cosine between the ray and the normal there.
- * A surface that the origin lies on is not hit, and within Radiance's distance neither is one that lies on the surface
- * that the ray leaves. But others that meet it at an angle are. */
-static bool is_at_origin(const query *q, double distance, double slope, vec3 normal) {
+/* Whether a crossing is at the ray's origin: of a surface that the origin lies on, or one that coincides with the
+ * surface that the ray leaves. Others that meet that one at an angle are hit however close they are. */
+static bool is_at_origin(const query *q, const candidate *c) {
     const geometry *g = q->geometry;
-    if (q->from < 0 || distance * fabs(slope) <= ON_SURFACE * (vec3_max_abs(g->center) + g->radius))
+    if (c->distance <= q->at_once)
         return true;
+    double height = fabs(c->distance * c->slope);
+    /* Twice as far as from the surface left, which itself may be the other one of two that coincide. */
+    if (height > 2 * coincidence(q, g->largest_reach))
+        return false;
+    if (height <= ON_SURFACE * (q->size + g->reach[c->surface]))
+        return true;
+    if (q->from < 0)
+        return false;
     vec3 left = shape_normal(&g->shapes[q->from], q->origin);
-    return vec3_length(vec3_cross(left, normal)) <= PARALLEL;
+    return coincide(q, height / 2, reach_of(q, c->surface, q->from), c->normal, left);
 }
 
-static bool in_reach(const query *q, double distance, double slope, vec3 normal) {
-    return distance > 0 && distance <= q->far &&
-           (distance > q->geometry->near || !is_at_origin(q, distance, slope, normal));
+static bool in_reach(const query *q, const candidate *c) {
+    return c->distance > 0 && (c->distance <= q->far || q->any) && !is_at_origin(q, c);
 }
 
 typedef struct point2 {
@@ -162,8 +218,8 @@ static bool is_certain(const geometry_triangle *triangle, double slope, const st
 /* Offers a triangle that the line meets. */
 static bool offer_met(query *q, const geometry_triangle *triangle, double slope) {
     double distance = vec3_dot(triangle->normal, vec3_subtract(triangle->center, q->origin)) / slope;
-    return in_reach(q, distance, slope, triangle->normal) &&
-           offer(q, (candidate){distance, triangle->surface, triangle->shines, triangle}, slope);
+    candidate c = {distance, triangle->normal, slope, triangle->surface, triangle->shines, triangle};
+    return in_reach(q, &c) && offer(q, c);
 }
 
 static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
@@ -218,12 +274,13 @@ static bool offer_curved(query *q, unsigned primitive) {
     shape_crossings crossings = shape_cross(s, q->origin, q->direction, surface == q->from);
     for (int i = 0; i < crossings.count; i++) {
         double distance = crossings.distance[i];
-        if (distance <= 0 || distance > q->far)
+        if (distance <= 0 || (distance > q->far && !q->any))
             continue;
         vec3 normal = shape_normal(s, vec3_add_scaled(q->origin, distance, q->direction));
         double slope = vec3_dot(normal, q->direction);
-        if (in_reach(q, distance, slope, normal))
-            return offer(q, (candidate){distance, surface, s->shines, NULL}, slope);
+        candidate c = {distance, normal, slope, surface, s->shines, NULL};
+        if (in_reach(q, &c))
+            return offer(q, c);
     }
     return false;
 }
@@ -320,7 +377,7 @@ static bool clip(query *q) {
  * true ray. */
 static void trace(query *q) {
     embree_context_init(&q->context);
-    q->nearest = q->nearest_front = q->nearest_shining = (candidate){INFINITY, -1, false, NULL};
+    q->nearest = q->nearest_front = q->nearest_shining = (candidate){.distance = INFINITY, .surface = -1};
     cast(q);
     for (int i = 0; i < q->miss_count && !q->found_any; i++) {
         q->around = &q->misses[i];
@@ -338,22 +395,28 @@ static bool is_ray(const geometry_ray *ray) {
 /* Of surfaces that coincide, such as the two sides of a sheet, the one counts that faces the ray; and of those that do,
  * such as a ceiling and a lamp in its plane, the one that shines. */
 static candidate visible(const query *q) {
-    double last = q->nearest.distance + q->geometry->near;
-    if (q->nearest_shining.distance <= last)
+    if (candidates_coincide(q, &q->nearest, &q->nearest_shining))
         return q->nearest_shining;
-    return q->nearest_front.distance <= last ? q->nearest_front : q->nearest;
+    return candidates_coincide(q, &q->nearest, &q->nearest_front) ? q->nearest_front : q->nearest;
+}
+
+static query query_make(const geometry *g, const geometry_ray *ray) {
+    double size = vec3_max_abs(ray->origin);
+    return (query){.geometry = g,
+                   .origin = ray->origin,
+                   .direction = ray->direction,
+                   .size = size,
+                   .at_once = ray->from < 0 ? fmin(GIVEN_ORIGIN * size, FTINY) : 0,
+                   .far = ray->far,
+                   .from = ray->from,
+                   .target = -1};
 }
 
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
     hit->surface = -1;
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g,
-               .origin = ray->origin,
-               .direction = ray->direction,
-               .far = ray->far,
-               .from = ray->from,
-               .target = -1};
+    query q = query_make(g, ray);
     if (!clip(&q))
         return false;
     trace(&q);
@@ -379,14 +442,9 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
 bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
     if (!g->scene || !is_ray(ray))
         return false;
-    query q = {.geometry = g,
-               .origin = ray->origin,
-               .direction = ray->direction,
-               .far = ray->far + g->near,
-               .from = ray->from,
-               .target = target,
-               .any = true,
-               .clear = ray->far - g->near};
+    query q = query_make(g, ray);
+    q.target = target;
+    q.any = true;
     if (!clip(&q))
         return false;
     trace(&q);

@@ -77,9 +77,9 @@ static bool is_doubtful(const oracle_crossing *c, double size) {
     return c->margin < 1e-13 * size;
 }
 
-static int compare_with_oracle(const geometry *g, const shape *shapes, const geometry_ray *ray, double near,
-                               double size, geometry_hit *hit) {
-    oracle_crossing expected = oracle_nearest(shapes, ZOO, ray, near);
+static int compare_with_oracle(const geometry *g, const shape *shapes, const geometry_ray *ray, double size,
+                               geometry_hit *hit) {
+    oracle_crossing expected = oracle_nearest(shapes, ZOO, ray);
     bool found = geometry_intersect(g, ray, hit);
     assert_true(found == (hit->surface >= 0));
     assert_true(geometry_occluded(g, ray, -1) == found || is_doubtful(&expected, size));
@@ -103,18 +103,6 @@ static int compare_with_oracle(const geometry *g, const shape *shapes, const geo
     return 1;
 }
 
-/* The zoo's longest edge along an axis. */
-static double zoo_extent(const shape *shapes) {
-    vec3 lower = {INFINITY, INFINITY, INFINITY}, upper = vec3_negate(lower);
-    for (int i = 0; i < ZOO; i++) {
-        vec3 a, b;
-        shape_bounds(&shapes[i], &a, &b);
-        lower = vec3_make(fmin(lower.x, a.x), fmin(lower.y, a.y), fmin(lower.z, a.z));
-        upper = vec3_make(fmax(upper.x, b.x), fmax(upper.y, b.y), fmax(upper.z, b.z));
-    }
-    return vec3_max_abs(vec3_subtract(upper, lower));
-}
-
 static void same_as_brute_force(void **state) {
     (void)state;
     dice d = {11};
@@ -126,19 +114,19 @@ static void same_as_brute_force(void **state) {
         shape shapes[ZOO];
         roll_zoo(&d, shapes, scale, at);
         geometry *g = build(shapes, ZOO, 1 + scene % 2);
-        double near = 1e-6 * fmin(1, zoo_extent(shapes)), size = vec3_max_abs(at) + 4 * scale;
+        double size = vec3_max_abs(at) + 4 * scale;
         for (int i = 0; i < 1500; i++) {
             double from_afar = i % 3 ? 2 : 1000;
             vec3 origin = vec3_add(at, roll_in_cube(&d, from_afar * scale));
             vec3 direction = vec3_subtract(vec3_add(at, roll_in_cube(&d, scale)), origin);
             geometry_ray ray = ray_from(origin, direction, -1);
             geometry_hit hit;
-            if (!compare_with_oracle(g, shapes, &ray, near, size + from_afar * scale, &hit))
+            if (!compare_with_oracle(g, shapes, &ray, size + from_afar * scale, &hit))
                 continue;
             hits++;
             for (int bounce = 0; bounce < 3; bounce++) {
                 ray = ray_from(hit.point, roll_direction(&d), hit.surface);
-                if (!compare_with_oracle(g, shapes, &ray, near, size, &hit))
+                if (!compare_with_oracle(g, shapes, &ray, size, &hit))
                     break;
                 second_hits++;
             }
@@ -166,7 +154,7 @@ static void occlusion_same_as_brute_force(void **state) {
             oracle_crossing c[2];
             int n = s == target ? 0 : oracle_crossings(&shapes[s], exact(ray.origin), exact(ray.direction), c);
             for (int k = 0; k < n; k++) {
-                expected |= c[k].distance > 1e-6 && c[k].distance < ray.far - 1e-6;
+                expected |= c[k].distance > 0 && c[k].distance < ray.far;
                 doubtful |= is_doubtful(&c[k], 2);
             }
         }
@@ -429,12 +417,16 @@ static void coincident_faces(void **state) {
     assert_true(fabs(hit.point.z - 2) < 1e-15);
     ray = ray_from(ray.origin, vec3_make(0, 0, -1), 0);
     assert_false(geometry_intersect(g, &ray, &hit));
-    /* Up to 1e-6 away a surface is at the origin, as in Radiance; beyond that it is not. */
-    ray = ray_from(vec3_make(0.1, 0.2, 9e-7), vec3_make(0, 0, -1), -1);
-    assert_false(geometry_intersect(g, &ray, &hit));
-    ray = ray_from(vec3_make(0.1, 0.2, 1.1e-6), vec3_make(0, 0, -1), -1);
-    assert_true(geometry_intersect(g, &ray, &hit));
-    assert_true(fabs(hit.distance - 1.1e-6) < 1e-18);
+    /* Of a given origin 7 digits count, and no more than Radiance's 1e-6; a surface next to it is at the origin. */
+    const struct {
+        double x, height;
+        bool met;
+    } given[] = {{0.2, 1.9e-7, false}, {0.2, 2.1e-7, true}, {2, 9e-7, false}, {2, 1.1e-6, true}, {1e-3, 2e-9, true}};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        ray = ray_from(vec3_make(given[i].x, 0, given[i].height), vec3_make(0, 0, -1), -1);
+        assert_true(geometry_intersect(g, &ray, &hit) == given[i].met);
+        assert_true(!given[i].met || fabs(hit.distance - given[i].height) < 1e-18);
+    }
     geometry_destroy(g);
 }
 

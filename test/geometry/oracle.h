@@ -134,10 +134,10 @@ static inline int oracle_crossings(const shape *s, exact3 o, exact3 d, oracle_cr
     return s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING ? oracle_flat(s, o, d, out) : oracle_curved(s, o, d, out);
 }
 
-/* The nearest crossing beyond `near`; the front one of those that coincide with it within `near`. On the surface that
+/* The nearest crossing, of surfaces that do not coincide. On the surface that
  * the ray leaves, flat ones are not hit and curved ones not at the crossing nearest to the origin. */
-static inline oracle_crossing oracle_nearest(const shape *shapes, int count, const geometry_ray *ray, double near) {
-    oracle_crossing nearest = {.distance = INFINITY, .surface = -1}, nearest_front = nearest;
+static inline oracle_crossing oracle_nearest(const shape *shapes, int count, const geometry_ray *ray) {
+    oracle_crossing nearest = {.distance = INFINITY, .surface = -1};
     exact3 o = exact(ray->origin), d = exact(ray->direction);
     for (int i = 0; i < count; i++) {
         oracle_crossing found[2];
@@ -148,15 +148,13 @@ static inline oracle_crossing oracle_nearest(const shape *shapes, int count, con
             skip = n == 2 && fabsl(found[1].distance) < fabsl(found[0].distance);
         for (int k = 0; k < n; k++) {
             found[k].surface = i;
-            if (k == skip || found[k].distance <= near || found[k].distance > ray->far)
+            if (k == skip || found[k].distance <= 0 || found[k].distance > ray->far)
                 continue;
             if (found[k].distance < nearest.distance)
                 nearest = found[k];
-            if (found[k].front && found[k].distance < nearest_front.distance)
-                nearest_front = found[k];
         }
     }
-    return nearest_front.distance <= nearest.distance + near ? nearest_front : nearest;
+    return nearest;
 }
 
 #endif
