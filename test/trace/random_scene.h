@@ -285,7 +285,7 @@ static inline void add_emitter(random_scene *s, int number, vec3 aim, bool flat)
 static inline void add_lamp(random_scene *s, int number, vec3 lower, vec3 upper, bool open) {
     char name[16];
     snprintf(name, sizeof name, "l%d", number);
-    bool small = s->kind == RANDOM_SMALL_LIGHT && roll(s) < 0.7;
+    bool small = s->kind == RANDOM_SMALL_LIGHT;
     double size = small ? roll_size(s, 1e-3, 0.1) : roll_between(s, 0.4, 1.2);
     vec3 at = roll_in_box(s, lower, upper);
     vec3 inwards = vec3_normalize(vec3_subtract(vec3_scale(0.5, vec3_add(lower, upper)), at));
