@@ -228,7 +228,7 @@ static inline void add_shape(random_scene *s, const char *material, vec3 at, dou
 static inline double roll_roughness(random_scene *s) {
     return s->kind == RANDOM_EASY          ? roll_size(s, 0.15, 1)
            : s->kind == RANDOM_SHARP_GLOSS ? roll_size(s, 1.1e-3, 0.3)
-                                           : roll_size(s, 0.02, 1);
+                                           : roll_size(s, 0.05, 1);
 }
 
 static inline void add_material(random_scene *s, int number) {
@@ -400,7 +400,7 @@ static inline void random_scene_make(random_scene *s, uint64_t number, placement
         add_floor(s, 20);
     else
         add_room(s, lower, upper);
-    if (open && roll(s) < 0.5)
+    if (open && s->kind != RANDOM_SMALL_LIGHT && roll(s) < 0.5)
         add_sky(s);
     add_shapes(s, lower, upper);
     int lamps = 1 + roll_below(s, 3) + (roll(s) < 0.1 ? 8 : 0);
