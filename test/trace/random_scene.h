@@ -40,7 +40,7 @@ typedef struct random_scene {
     graze_ray rays[RANDOM_RAYS];
     placement placement;
     uint64_t dice;
-    bool oriented[RANDOM_MATERIALS];
+    bool open; /* a floor and lights around, or a closed room */
     int shape_count;
     vec3 targets[64]; /* places that rays aim at */
     int target_count;
@@ -393,7 +393,7 @@ static inline void random_scene_make(random_scene *s, uint64_t number, placement
     roll_settings(s);
     for (int i = 0; i < RANDOM_MATERIALS; i++)
         add_material(s, i);
-    bool open = roll(s) < 0.4;
+    bool open = s->open = roll(s) < 0.4;
     vec3 upper = roll_in_box(s, vec3_make(1.5, 1.5, 2), vec3_make(5, 5, 4));
     vec3 lower = {-upper.x, -upper.y, 0};
     if (open)
