@@ -31,7 +31,7 @@ typedef enum random_kind {
     RANDOM_KINDS
 } random_kind;
 
-enum { RANDOM_RAYS = 2, RANDOM_MATERIALS = 4, RANDOM_TEXT = 1 << 16 };
+enum { RANDOM_RAYS = 2, RANDOM_MATERIALS = 4, RANDOM_TEXT = 1 << 17 };
 
 typedef struct random_scene {
     random_kind kind;
