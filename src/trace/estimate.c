@@ -94,8 +94,8 @@ static double standard_error(double variance, double known) {
     return sqrt(variance + KNOWN_ERROR * known * (KNOWN_ERROR * known));
 }
 
-/* Radiance is not negative, though controls are, and few samples of much noise may leave more of them than of light: the
- * value nearest to what was found is then 0, and nearer to the truth whatever that is. */
+/* Radiance is not negative, though controls are, and few samples of much noise may leave more of them than of light:
+ * the value nearest to what was found is then 0, and nearer to the truth whatever that is. */
 static rgb not_negative(rgb mean) {
     return (rgb){fmax(mean.r, 0), fmax(mean.g, 0), fmax(mean.b, 0)};
 }
