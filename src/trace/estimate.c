@@ -95,9 +95,15 @@ static double standard_error(double variance, double known) {
     return sqrt(variance + KNOWN_ERROR * known * (KNOWN_ERROR * known));
 }
 
+/* Radiance is not negative, though controls are, and few samples of much noise may leave more of them than of light:
+ * the value nearest to what was found is then 0, and nearer to the truth whatever that is. */
+static rgb not_negative(rgb mean) {
+    return (rgb){fmax(mean.r, 0), fmax(mean.g, 0), fmax(mean.b, 0)};
+}
+
 static void set_answer(graze_answer *answer, rgb mean, rgb variance, const half halves[HALVES]) {
     rgb known = halves[0].integrated || halves[1].integrated ? mean : rgb_gray(0);
-    answer->value = mean;
+    answer->value = not_negative(mean);
     answer->standard_error = (rgb){standard_error(variance.r, known.r), standard_error(variance.g, known.g),
                                    standard_error(variance.b, known.b)};
     answer->samples = halves[0].taken + halves[1].taken;

@@ -30,22 +30,29 @@ static double survival(const path *p, rgb reflectance) {
     return p->depth >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
-/* How likely the path takes a lobe. One that may not go on is taken only where Eq. 16 stands alone. */
-static double lobe_chance(const path *p, rgb reflectance, bool goes_on, bool *ends) {
+/* Whether light is found by a lobe that may not go on, too: where Eq. 16 stands alone, and a gloss where it shares,
+ * which light samples might miss. */
+static bool finds_lights(const path *p, graze_lobe lobe) {
+    const graze_trace_settings *s = p->context->settings;
+    bool shares = s->strategy == GRAZE_STRATEGY_MIS && lobe == GRAZE_LOBE_GLOSSY;
+    return p->context->scene->light_count > 0 && (shares || !context_samples_lights(s));
+}
+
+/* How likely the path takes a lobe. One that may not go on is taken only to find lights. */
+static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
     double chance = goes_on ? survival(p, reflectance) : 0;
-    bool needed = !context_samples_lights(p->context->settings) && p->context->scene->light_count > 0 &&
-                  !rgb_is_black(reflectance);
     *ends = chance == 0;
-    return *ends && needed ? 1 : chance;
+    return *ends && finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : chance;
 }
 
 lobe_choice lobes_choose(const path *p, const vertex *v) {
     lobe_choice choice = {0};
-    double diffuse = lobe_chance(p, v->ambient, path_bounces_left(p), &choice.diffuse_ends), specular = 0;
+    double diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, v->ambient, path_bounces_left(p), &choice.diffuse_ends);
+    double specular = 0;
     if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
         specular = survival(p, v->shading.specular);
     else if (v->shading.specular_lobe == GRAZE_LOBE_GLOSSY)
-        specular = lobe_chance(p, v->shading.specular, !v->gloss_is_ambient, &choice.specular_ends);
+        specular = lobe_chance(p, GRAZE_LOBE_GLOSSY, v->shading.specular, !v->gloss_is_ambient, &choice.specular_ends);
     choice.diffuse = diffuse;
     choice.specular = specular;
     if (diffuse == 0 || specular == 0)
