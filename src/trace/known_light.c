@@ -26,16 +26,16 @@ static bool has_one_role(const scene_light *light) {
     return !light->glow || light->glow_radius == 0;
 }
 
-void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
+void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, p->depth > 0};
-    if (!receiver->every || p->scattered)
+    if (lights->receiver.draws > 0 || p->scattered)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
         bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
         unshadowed_light whole;
-        if (light_probability(scene, receiver, i) == 0 || !has_one_role(light) ||
+        if (light_expectation(lights, i) == 0 || !has_one_role(light) ||
             !unshadowed_light_at(scene, &v->shading, v->point, i, glossy, &whole))
             continue;
         rgb diffuse = !ambient ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);

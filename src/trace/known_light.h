@@ -8,7 +8,7 @@
 bool known_light_is(const path *, int light);
 
 /* Adds what is known of the lights' unshadowed light at a vertex, and remembers of which. */
-void known_light_add(path *, const vertex *, const light_receiver *);
+void known_light_add(path *, const vertex *, const light_choice *);
 
 /* Takes what a sample finds, or would find without shadows, of a light that is known. */
 void known_light_subtract(path *, int light, rgb found, bool lit);

@@ -84,7 +84,7 @@ static graze_surface_sample draw_direction(path *p, const graze_surface *s, graz
     return graze_surface_sample_lobe(s, lobe, random[0], random[1], random[2]);
 }
 
-bool lobes_reflect(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice, vec3 *direction) {
+bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, lobe_choice choice, vec3 *direction) {
     if (choice.diffuse + choice.specular == 0)
         return false;
     double random[4];
@@ -107,7 +107,7 @@ bool lobes_reflect(path *p, const vertex *v, const light_receiver *receiver, lob
         .direct = rgb_scale(scale, rgb_multiply(p->throughput, sample.weight)),
         .indirect = rgb_scale(scale, rgb_multiply(p->throughput, diffuse ? v->ambient : sample.weight)),
         .ambient = ambient && (!ends || p->context->settings->back_faces_visible),
-        .receiver = *receiver,
+        .lights = lights,
     };
     p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));
     if (rgb_max(p->last.direct) > LARGEST_THROUGHPUT || rgb_max(p->last.indirect) > LARGEST_THROUGHPUT)

@@ -15,19 +15,20 @@
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, vertex v) {
     const path_context *context = p->context;
+    light_choice lights;
     for (;;) {
         if (!path_bounces_left(p))
             p->radiance = rgb_add(
                 p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
         lobe_choice choice = lobes_choose(p, &v);
-        light_receiver receiver = direct_light_receiver(p, &v);
+        direct_light_prepare(p, &v, &lights);
         p->known.lights = 0;
-        if (receiver.candidates > 0) {
-            known_light_add(p, &v, &receiver);
-            direct_light_add(p, &v, &receiver, choice);
+        if (light_choice_is_possible(&lights)) {
+            known_light_add(p, &v, &lights);
+            direct_light_add(p, &v, &lights, choice);
         }
         vec3 direction;
-        if (!lobes_reflect(p, &v, &receiver, choice, &direction))
+        if (!lobes_reflect(p, &v, &lights, choice, &direction))
             return;
         path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);

@@ -4,6 +4,7 @@
 
 #include "graze/material.h"
 #include "scene/light.h"
+#include "scene/light_choice.h"
 #include "trace/hit.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
@@ -24,7 +25,7 @@ typedef struct scattering {
     rgb direct;      /* throughput for LIGHT_DIRECT, which differs where a gloss was made ambient */
     rgb indirect;    /* throughput for LIGHT_AMBIENT, also where the path ends with this reflection */
     bool ambient;    /* LIGHT_AMBIENT counts */
-    light_receiver receiver;
+    const light_choice *lights; /* as seen from there */
 } scattering;
 
 /* The lights at the last vertex whose unshadowed light is known, a bit each, and where to keep the control of the first
