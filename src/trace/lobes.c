@@ -30,11 +30,17 @@ static double survival(const path *p, rgb reflectance) {
     return p->depth >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
+/* Where lights are sampled, a second or later reflection that carries less than this is followed less often: it adds
+ * little to the variance, and the rest of the path costs what it costs. */
+#define WORTH_FOLLOWING 0.1
+
 /* How likely the path takes a lobe. One that may not go on is taken only where Eq. 16 stands alone. */
 static double lobe_chance(const path *p, rgb reflectance, bool goes_on, bool *ends) {
     double chance = goes_on ? survival(p, reflectance) : 0;
-    bool needed = !context_samples_lights(p->context->settings) && p->context->scene->light_count > 0 &&
-                  !rgb_is_black(reflectance);
+    bool sampled = context_samples_lights(p->context->settings);
+    bool needed = !sampled && p->context->scene->light_count > 0 && !rgb_is_black(reflectance);
+    if (sampled && p->depth > 0)
+        chance = fmin(chance, fmax(rgb_max(rgb_multiply(p->throughput, reflectance)) / WORTH_FOLLOWING, 0.05));
     *ends = chance == 0;
     return *ends && needed ? 1 : chance;
 }
