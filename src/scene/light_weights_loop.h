@@ -10,7 +10,6 @@
 #ifndef SCENE_LIGHT_WEIGHTS_LOOP_H
 #define SCENE_LIGHT_WEIGHTS_LOOP_H
 
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -159,8 +158,10 @@ static void weigh_groups(light_entries e, size_t first, size_t count, const ligh
 static void weigh_spots(light_entries e, size_t first, size_t count, const light_weights_input *in,
                         float *restrict weights) {
     const light_weights_input k = *in;
-    for (size_t i = 0; i < count; i++)
-        weights[i] *= spot_part(&e, first + i, &k);
+    for (size_t i = 0; i < count; i++) {
+        float part = spot_part(&e, first + i, &k), weight = float_max(weights[i] * part, 1e-30f);
+        weights[i] = float_min(weights[i], part) > 0 ? weight : 0;
+    }
 }
 
 LIGHT_INLINE void weigh_blocks(const light_tree *tree, const light_group *group, size_t block, size_t blocks,
