@@ -93,6 +93,7 @@ $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 # The reflectance models are loops to make vector code of; that -ftrapping-math would forbid in part.
 $(BUILD)/obj/brdf/%.o: OPTIMIZE := -O3 -fno-trapping-math
+$(BUILD)/obj/scene/light_weights_%.o: OPTIMIZE := -O3 -fno-trapping-math
 
 # What the tools share among them, beside the library.
 $(BUILD)/libtools.a: $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/tools/common/*.c))

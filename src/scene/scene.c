@@ -92,20 +92,6 @@ static void add_light(builder *b, scene_light light) {
         b->scene->lights[b->scene->light_count++] = light;
 }
 
-static void bound_shape_light(scene_light *light) {
-    const shape *s = light->shape;
-    if (s->kind == SHAPE_SPHERE) {
-        light->center = s->sphere.center;
-        light->radius = s->sphere.radius;
-    } else {
-        vec3 lower, upper;
-        shape_bounds(s, &lower, &upper);
-        light->center = vec3_scale(0.5, vec3_add(lower, upper));
-        light->radius = vec3_length(vec3_subtract(upper, lower)) / 2;
-    }
-    light->power = rgb_brightness(light->radiance) * shape_area(s);
-}
-
 /* A flat surface across its own orientation vector: told here, once, for no ray could tell it. */
 static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
@@ -149,7 +135,6 @@ static void add_shape(builder *b, int primitive) {
     light.shape = &scene->shapes[index];
     light.surface = (int)index;
     light.primitive = primitive;
-    bound_shape_light(&light);
     if (!rgb_is_black(light.radiance))
         scene->surfaces[index].light = (int)scene->light_count;
     add_light(b, light);
@@ -179,8 +164,6 @@ static void add_source(builder *b, int primitive) {
         rad_primitive_warning(b->report, p, "a source is infinitely far away: the spotlight's cone is ignored");
         light.spot = false;
     }
-    double half_sine = sin(light.half_angle / 2);
-    light.power = rgb_brightness(light.radiance) * 4 * PI * half_sine * half_sine;
     add_light(b, light);
 }
 
@@ -267,6 +250,8 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         if (b.status == GRAZE_OK)
             add_surfaces(&b, primitive_count);
     }
+    if (b.status == GRAZE_OK)
+        b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
         b.status = geometry_build(&scene->geometry, scene->shapes, scene->surface_count,
                                   b.settings->threads > 1 ? b.settings->threads : 1, report);

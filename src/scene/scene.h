@@ -11,6 +11,7 @@
 #include "graze/material.h"
 #include "graze/scene.h"
 #include "rad/scene_file.h"
+#include "scene/light_tree.h"
 
 /* Of a light, and of the ambient value: sums and squares of radiances then stay far from overflow. */
 #define SCENE_LARGEST_RADIANCE 1e100
@@ -35,10 +36,8 @@ typedef struct scene_light {
     vec3 spot_axis;     /* unit, the way the light goes */
     double spot_cosine; /* of the half angle of the cone */
     double spot_focus;  /* how far behind the light its cone begins */
-    vec3 center;        /* of a sphere around the shape; for a source the unit direction towards it */
-    double radius;      /* of that sphere */
+    vec3 center;        /* of a source: the unit direction towards it */
     double half_angle;  /* of a source, radians */
-    double power;       /* brightness x area, or x solid angle for a source: for choosing among lights */
 } scene_light;
 
 /* What a material does: it reflects, or it shines. */
@@ -69,6 +68,7 @@ struct graze_scene {
     size_t light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
     bool sources_apart;  /* no direction is in two of them */
+    light_tree light_tree;
     geometry *geometry;
 };
 

@@ -5,20 +5,32 @@
 #include "trace/known_light.h"
 #include "trace/observer.h"
 
-/* Up to so many lights are all sampled, at the first point and at later ones; of more, one is chosen. */
+/* Up to so many lights are all sampled, at the first point and at later ones; of more, some are chosen. */
 #define EVERY_LIGHT_FIRST PATH_FIRST_CONTROLS
 #define EVERY_LIGHT_LATER 2
+/* Of the others, so many. */
+#define CHOSEN_FIRST 4
+#define CHOSEN_LATER 2
 
-light_receiver direct_light_receiver(const path *p, const vertex *v) {
+void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) {
     const path_context *context = p->context;
-    light_receiver receiver = {.point = v->point, .normal = v->shading.n};
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
-    receiver.ambient =
-        context_samples_glows(context->settings) && (path_bounces_left(p) || (glossy && !v->gloss_is_ambient));
-    receiver.every = context->scene->light_count <= (p->depth == 0 ? EVERY_LIGHT_FIRST : EVERY_LIGHT_LATER);
-    if (context_samples_lights(context->settings) && (glossy || !rgb_is_black(v->ambient)))
-        light_receiver_prepare(context->scene, &receiver);
-    return receiver;
+    light_receiver receiver = {.point = v->point, .surface = &v->shading, .diffuse = v->shading.diffuse};
+    if (!context_samples_lights(context->settings) || (!glossy && rgb_is_black(v->ambient))) {
+        light_choice_none(lights);
+        return;
+    }
+    if (glossy)
+        receiver.glossy = v->shading.specular;
+    if (context_samples_glows(context->settings)) {
+        if (path_bounces_left(p))
+            receiver.ambient_diffuse = v->ambient;
+        if (glossy && !v->gloss_is_ambient)
+            receiver.ambient_glossy = v->shading.specular;
+    }
+    bool first = p->depth == 0, every = context->scene->light_count <= (first ? EVERY_LIGHT_FIRST : EVERY_LIGHT_LATER);
+    receiver.draws = every ? 0 : first ? CHOSEN_FIRST : CHOSEN_LATER;
+    light_choice_prepare(lights, context->scene, &receiver);
 }
 
 /* Whether nothing stands between a vertex and a light's sampled point. */
@@ -57,13 +69,13 @@ static rgb reflectance_for_light(const path *p, const vertex *v, const light_sam
     return rgb_add(diffuse, glossy);
 }
 
-/* Direct light, Eq. 18, from a sample of one light that was chosen with the probability. */
-static void add_sampled_light(path *p, const vertex *v, const light_receiver *receiver, int light, double probability,
-                              const double random[2], lobe_choice choice) {
-    light_sample sample = light_draw(p->context->scene, receiver, light, random);
+/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. */
+static void add_sampled_light(path *p, const vertex *v, int light, double expectation, const double random[2],
+                              lobe_choice choice) {
+    light_sample sample = light_draw(p->context->scene, v->point, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
         return;
-    double cosine = vec3_dot(sample.direction, v->shading.n), density = probability * sample.density;
+    double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * sample.density;
     if (cosine <= 0)
         return;
     rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice), sample.radiance);
@@ -79,18 +91,34 @@ static void add_sampled_light(path *p, const vertex *v, const light_receiver *re
         known_light_subtract(p, light, found, lit);
 }
 
-void direct_light_add(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice) {
-    const graze_scene *scene = p->context->scene;
-    double random[3], probability = 0;
-    if (!receiver->every) {
-        sampler_3d(p->sampler, random);
-        int light = light_choose(scene, receiver, random[0], &probability);
-        add_sampled_light(p, v, receiver, light, probability, random + 1, choice);
+/* Where a number in [0,1) is after some steps of the given length around the circle of these numbers. Steps of 1/g and
+ * 1/g^2 with g^3 = g + 1 cover the square evenly. */
+static double step(double random, int steps, double length) {
+    double x = random + steps * length;
+    return x - floor(x);
+}
+
+static void add_every_light(path *p, const vertex *v, const light_choice *lights, lobe_choice choice) {
+    double random[2];
+    for (int light = 0; light < (int)p->context->scene->light_count; light++)
+        if (!known_light_is_settled(p, light) && light_expectation(lights, light) > 0) {
+            sampler_2d(p->sampler, random);
+            add_sampled_light(p, v, light, 1, random, choice);
+        }
+}
+
+void direct_light_add(path *p, const vertex *v, const light_choice *lights, lobe_choice choice) {
+    double random[3];
+    if (lights->receiver.draws == 0) {
+        add_every_light(p, v, lights, choice);
         return;
     }
-    for (int light = 0; light < (int)scene->light_count; light++)
-        if (!known_light_is_settled(p, light) && light_probability(scene, receiver, light) > 0) {
-            sampler_2d(p->sampler, random);
-            add_sampled_light(p, v, receiver, light, 1, random, choice);
-        }
+    sampler_3d(p->sampler, random);
+    int draws = lights->receiver.draws;
+    for (int i = 0; i < draws; i++) {
+        double expectation, place_on_light[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
+        int light = light_choose(lights, (random[0] + i) / draws, &expectation);
+        if (light >= 0)
+            add_sampled_light(p, v, light, expectation, place_on_light, choice);
+    }
 }

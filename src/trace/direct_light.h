@@ -4,10 +4,10 @@
 
 #include "trace/path_state.h"
 
-/* The vertex as lights see it. */
-light_receiver direct_light_receiver(const path *, const vertex *);
+/* The lights as the vertex sees them; none where the strategy does not sample them. */
+void direct_light_prepare(const path *, const vertex *, light_choice *);
 
 /* Samples every light, or one that is chosen, and adds what it finds to the path's radiance. */
-void direct_light_add(path *, const vertex *, const light_receiver *, lobe_choice);
+void direct_light_add(path *, const vertex *, const light_choice *, lobe_choice);
 
 #endif

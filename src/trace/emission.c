@@ -14,8 +14,10 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
         return 1;
     if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
         return 0;
-    double other =
-        light_density(p->context->scene, &last->receiver, hit->light, hit->direction, hit->point, hit->normal);
+    double other = light_expectation(last->lights, hit->light);
+    if (other > 0)
+        other *= light_density(p->context->scene, last->lights->receiver.point, hit->light, hit->direction, hit->point,
+                               hit->normal);
     return power_heuristic(last->density, other);
 }
 

@@ -68,15 +68,15 @@ static void begin_controls(path *p, int count) {
         p->controls[p->control_count] = (path_control){{0, 0, 0}, 0, 0};
 }
 
-void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
+void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, 0, p->depth > 0};
-    if (!receiver->every || p->scattered)
+    if (lights->receiver.draws > 0 || p->scattered)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
         bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
-        if (light_probability(scene, receiver, i) == 0 || !has_one_role(light))
+        if (light_expectation(lights, i) == 0 || !has_one_role(light))
             continue;
         const path_memory_light found = look_at(p, v, i, glossy);
         if (found.seen == GEOMETRY_BLOCKED)
@@ -101,14 +101,14 @@ void known_light_add(path *p, const vertex *v, const light_receiver *receiver) {
     }
 }
 
-bool known_light_is_all(const path *p, const vertex *v, const light_receiver *receiver) {
+bool known_light_is_all(const path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     /* Glows that are not sampled are found by reflection alone. */
-    if (!receiver->every || p->known.settled == 0 || v->shading.specular_lobe == GRAZE_LOBE_MIRROR ||
+    if (lights->receiver.draws > 0 || p->known.settled == 0 || v->shading.specular_lobe == GRAZE_LOBE_MIRROR ||
         !context_samples_glows(p->context->settings))
         return false;
     for (int i = 0; i < (int)scene->light_count; i++)
-        if (!known_light_is_settled(p, i) && light_probability(scene, receiver, i) > 0)
+        if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
             return false;
     return !geometry_reflects_above(scene->geometry, v->point, v->shading.n, v->surface);
 }

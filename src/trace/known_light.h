@@ -11,10 +11,10 @@ bool known_light_is(const path *, int light);
 bool known_light_is_settled(const path *, int light);
 
 /* Whether the lights are all that could be reflected at the vertex, and all of them are settled. */
-bool known_light_is_all(const path *, const vertex *, const light_receiver *);
+bool known_light_is_all(const path *, const vertex *, const light_choice *);
 
 /* Adds what is known of the lights' light at a vertex, and remembers of which. */
-void known_light_add(path *, const vertex *, const light_receiver *);
+void known_light_add(path *, const vertex *, const light_choice *);
 
 /* Takes what a sample finds, or would find without shadows, of a light that is known. */
 void known_light_subtract(path *, int light, rgb found, bool lit);

@@ -38,9 +38,15 @@ static bool finds_lights(const path *p, graze_lobe lobe) {
     return p->context->scene->light_count > 0 && (shares || !context_samples_lights(s));
 }
 
+/* Where lights are sampled, a second or later reflection that carries less than this is followed less often: it adds
+ * little to the variance, and the rest of the path costs what it costs. */
+#define WORTH_FOLLOWING 0.1
+
 /* How likely the path takes a lobe. One that may not go on is taken only to find lights. */
 static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
     double chance = goes_on ? survival(p, reflectance) : 0;
+    if (context_samples_lights(p->context->settings) && p->depth > 0)
+        chance = fmin(chance, fmax(rgb_max(rgb_multiply(p->throughput, reflectance)) / WORTH_FOLLOWING, 0.05));
     *ends = chance == 0;
     return *ends && finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : chance;
 }
@@ -102,7 +108,7 @@ static void draw_numbers(path *p, graze_lobe specular, lobe_choice choice, doubl
         sampler_3d(p->sampler, random);
 }
 
-bool lobes_reflect(path *p, const vertex *v, const light_receiver *receiver, lobe_choice choice, vec3 *direction) {
+bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, lobe_choice choice, vec3 *direction) {
     if (choice.diffuse + choice.specular == 0)
         return false;
     double random[4] = {0, 0, 0, 0};
@@ -125,7 +131,7 @@ bool lobes_reflect(path *p, const vertex *v, const light_receiver *receiver, lob
         .direct = rgb_scale(scale, rgb_multiply(p->throughput, sample.weight)),
         .indirect = rgb_scale(scale, rgb_multiply(p->throughput, diffuse ? v->ambient : sample.weight)),
         .ambient = ambient && (!ends || p->context->settings->back_faces_visible),
-        .receiver = *receiver,
+        .lights = lights,
     };
     p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));
     if (rgb_max(p->last.direct) > LARGEST_THROUGHPUT || rgb_max(p->last.indirect) > LARGEST_THROUGHPUT)

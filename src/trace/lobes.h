@@ -8,6 +8,6 @@
 lobe_choice lobes_choose(const path *, const vertex *);
 
 /* Draws the lobe to go on with and turns the path into it. False: the path ends here. */
-bool lobes_reflect(path *, const vertex *, const light_receiver *, lobe_choice, vec3 *direction);
+bool lobes_reflect(path *, const vertex *, const light_choice *, lobe_choice, vec3 *direction);
 
 #endif

@@ -24,22 +24,23 @@ static void add_ambient_value(path *p, const vertex *v) {
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, vertex v) {
     const path_context *context = p->context;
+    light_choice lights;
     for (;;) {
         p->ambient_limit = v.no_ambient ? 0 : context->settings->ambient_bounces;
         if (!path_bounces_left(p))
             add_ambient_value(p, &v);
         lobe_choice choice = lobes_choose(p, &v);
-        light_receiver receiver = direct_light_receiver(p, &v);
+        direct_light_prepare(p, &v, &lights);
         p->known.lights = p->known.settled = 0;
-        if (receiver.candidates > 0) {
+        if (light_choice_is_possible(&lights)) {
             if (!context->observer)
-                known_light_add(p, &v, &receiver);
-            direct_light_add(p, &v, &receiver, choice);
-            if (known_light_is_all(p, &v, &receiver))
+                known_light_add(p, &v, &lights);
+            direct_light_add(p, &v, &lights, choice);
+            if (known_light_is_all(p, &v, &lights))
                 return;
         }
         vec3 direction;
-        if (!lobes_reflect(p, &v, &receiver, choice, &direction))
+        if (!lobes_reflect(p, &v, &lights, choice, &direction))
             return;
         path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);

@@ -4,6 +4,7 @@
 
 #include "graze/material.h"
 #include "scene/light.h"
+#include "scene/light_choice.h"
 #include "trace/hit.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
@@ -20,12 +21,12 @@ typedef struct vertex {
 
 /* The last reflection, as an emitter found next needs it. */
 typedef struct scattering {
-    graze_lobe lobe; /* NONE: the ray comes from the eye */
-    double density;  /* of the direction, per unit solid angle, the choice of the lobe included */
-    rgb direct;      /* throughput for LIGHT_DIRECT, which differs where a gloss was made ambient */
-    rgb indirect;    /* throughput for LIGHT_AMBIENT, also where the path ends with this reflection */
-    bool ambient;    /* LIGHT_AMBIENT counts */
-    light_receiver receiver;
+    graze_lobe lobe;            /* NONE: the ray comes from the eye */
+    double density;             /* of the direction, per unit solid angle, the choice of the lobe included */
+    rgb direct;                 /* throughput for LIGHT_DIRECT, which differs where a gloss was made ambient */
+    rgb indirect;               /* throughput for LIGHT_AMBIENT, also where the path ends with this reflection */
+    bool ambient;               /* LIGHT_AMBIENT counts */
+    const light_choice *lights; /* as seen from there */
 } scattering;
 
 /* The lights at the last vertex whose unshadowed light is known, a bit each, and where to keep the control of the first

@@ -1,0 +1,42 @@
+/* Choosing a light for a surface point: about in proportion to what it would add to the radiance that leaves towards
+ * the viewer, if nothing cast shadows. */
+#ifndef SCENE_LIGHT_CHOICE_H
+#define SCENE_LIGHT_CHOICE_H
+
+#include "scene/light_weights.h"
+#include "scene/scene.h"
+
+/* A surface point that asks for light. */
+typedef struct light_receiver {
+    vec3 point;
+    const graze_surface *surface;        /* its frame, lobe and view; to be kept as long as the choice */
+    rgb diffuse, glossy;                 /* reflectance for LIGHT_DIRECT lights */
+    rgb ambient_diffuse, ambient_glossy; /* for LIGHT_AMBIENT ones; black where they are not wanted */
+    int draws; /* how many lights are chosen; 0: every light is sampled, of LIGHT_GROUP_MOST at most */
+} light_receiver;
+
+/* The lights as one point sees them. Large: not to be copied. */
+typedef struct light_choice {
+    const light_tree *tree;
+    light_receiver receiver;
+    light_weights_input input;
+    light_weights root;
+} light_choice;
+
+void light_choice_prepare(light_choice *, const graze_scene *, const light_receiver *);
+
+/* For a point that nothing shines on. */
+void light_choice_none(light_choice *);
+
+/* Whether any light could reach the point. */
+bool light_choice_is_possible(const light_choice *);
+
+/* How often the light is sampled, on the average: the probability with which light_choose takes it, times the number of
+ * draws; or 1, where every light is. It is 0 only where the light cannot reach the point. */
+double light_expectation(const light_choice *, int light);
+
+/* Chooses a light by a number in [0,1): lights that are near each other by numbers that are. To be called only if it is
+ * possible. Gives its light_expectation. -1: the draw fell on a group none of whose lights can reach the point. */
+int light_choose(const light_choice *, double random, double *expectation);
+
+#endif
