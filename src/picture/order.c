@@ -7,6 +7,23 @@ static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
+static size_t common_divisor(size_t a, size_t b) {
+    while (b) {
+        size_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* A step round all tiles, in the golden section: the first few tiles, however many, are well spread. */
+static size_t golden_stride(size_t tiles) {
+    size_t stride = (size_t)(0.6180339887498949 * (double)tiles);
+    while (stride < 1 || common_divisor(stride, tiles) != 1)
+        stride++;
+    return stride;
+}
+
 order order_create(int width, int height, int spacing) {
     order o = {.width = width, .height = height, .spacing = 1, .passes = 1};
     while (2 * o.spacing <= smaller(spacing, TILE)) {
@@ -15,6 +32,7 @@ order order_create(int width, int height, int spacing) {
     }
     o.across = (width + TILE - 1) / TILE;
     o.down = (height + TILE - 1) / TILE;
+    o.stride = golden_stride((size_t)o.across * (size_t)o.down);
     return o;
 }
 
@@ -23,7 +41,7 @@ size_t order_count(const order *o) {
 }
 
 order_piece order_piece_at(const order *o, size_t index) {
-    size_t tiles = (size_t)o->across * (size_t)o->down, tile = index % tiles;
+    size_t tiles = (size_t)o->across * (size_t)o->down, tile = index % tiles * o->stride % tiles;
     int pass = (int)(index / tiles);
     int left = (int)(tile % (size_t)o->across) * TILE, top = (int)(tile / (size_t)o->across) * TILE;
     order_piece p = {.right = smaller(left + TILE, o->width), .bottom = smaller(top + TILE, o->height)};

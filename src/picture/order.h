@@ -1,4 +1,4 @@
-/* The order in which pixels are computed: first a coarse grid, then what lies between. */
+/* The order in which pixels are computed: first a coarse grid, then what lies between, each spread over the picture. */
 #ifndef PICTURE_ORDER_H
 #define PICTURE_ORDER_H
 
@@ -8,6 +8,7 @@
 typedef struct order {
     int width, height, spacing;
     int across, down, passes;
+    size_t stride; /* from a tile to the one that comes next */
 } order;
 
 /* Pixels `spacing` apart come first, brought down to a power of two in 1 .. 16. */

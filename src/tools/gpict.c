@@ -36,7 +36,6 @@ static graze_status run(void *user, const tool_arguments *arguments, const graze
     graze_status status = render_options_settings(&p->options.render, false, &j.trace, report);
     if (status == GRAZE_OK)
         status = check(&p->options, arguments, report);
-    watch_prepare();
     if (status == GRAZE_OK)
         status = p->options.first_frame > 0 ? sequence_render(&j) : render_one(&j);
     graze_scene_destroy(j.scene);
@@ -53,6 +52,7 @@ int main(int argc, char **argv) {
                             .summary = "Renders pictures of Radiance scenes to a stated error.",
                             .options = p.table,
                             .count = GPICT_TABLE_SIZE};
+    watch_prepare();
     int status = tool_main(&options, argc, argv, &report, run, &p);
     if (p.signal && status == GRAZE_OK)
         watch_die(p.signal);
