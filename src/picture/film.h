@@ -16,7 +16,7 @@ typedef enum film_state {
 
 /* The planes by meaning; null where the picture has none of these. */
 typedef struct film_planes {
-    float *value[3], *error[3], *samples, *depth, *normal[3];
+    float *value[3], *error[3], *samples, *depth, *normal[3], *albedo[3], *direct[3], *indirect[3];
 } film_planes;
 
 typedef struct film {
@@ -32,6 +32,7 @@ typedef struct film_pixel {
     double reached;
     double depth;
     vec3 normal;
+    rgb albedo, indirect;
 } film_pixel;
 
 /* Null pointers, or all of it. False when out of memory. */

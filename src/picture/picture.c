@@ -65,12 +65,13 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     return sample;
 }
 
-static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings) {
+/* `parts` may be null. */
+static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings, estimate_parts *parts) {
     uint64_t number = (uint64_t)p->row * (uint64_t)p->picture->settings.width + (uint64_t)p->column;
     graze_answer answer;
     path_memory known = {.alike = !is_spread(&p->picture->settings)};
     pixel remembering = {p->picture, p->column, p->row, &known};
-    estimate(settings, number, sample_pixel, &remembering, &answer);
+    estimate_with_parts(settings, number, sample_pixel, &remembering, &answer, parts);
     return answer;
 }
 
@@ -102,7 +103,11 @@ static void render_pixel(rendering *p, int column, int row) {
     size_t at = (size_t)row * (size_t)p->settings.width + (size_t)column;
     if (film_state_of(&p->film, at) != FILM_MISSING)
         return;
-    film_pixel result = {.answer = estimate_pixel(&(pixel){p, column, row, NULL}, &p->trace)};
+    estimate_parts parts = {{0, 0, 0}, {0, 0, 0}};
+    bool layers = p->settings.content == PICTURE_LAYERS;
+    film_pixel result = {.answer = estimate_pixel(&(pixel){p, column, row, NULL}, &p->trace, layers ? &parts : NULL)};
+    result.albedo = parts.albedo;
+    result.indirect = parts.indirect;
     result.reached = relative_error(&result.answer, p->trace.floor);
     look_at_geometry(p, column, row, &result);
     film_finish(&p->film, at, &result);
@@ -139,7 +144,7 @@ static void sample_pilot(void *user, size_t index, int worker) {
     int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
     pixel at = {p->picture, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
                 NULL};
-    p->values[index] = estimate_pixel(&at, &p->trace).value;
+    p->values[index] = estimate_pixel(&at, &p->trace, NULL).value;
 }
 
 static graze_status estimate_mean(const rendering *whole, double *mean, const graze_report *report) {

@@ -14,8 +14,11 @@ typedef enum picture_content {
     PICTURE_COLOR,  /* R G B */
     PICTURE_DEPTH,  /* and depth.Z: distance along the ray through the pixel's centre; 1e10 where it meets nothing, 0
                        where the view has no ray */
-    PICTURE_LAYERS, /* and standard_error.R .G .B, samples.Y (paths taken) and normal.X .Y .Z (of the surface at that
-                       distance, on the viewer's side) */
+    PICTURE_LAYERS, /* and standard_error.R .G .B; samples.Y (paths taken); normal.X .Y .Z (of the surface at that
+                       distance, on the viewer's side); albedo.R .G .B (of what is seen: diffuse and specular
+                       reflectance; 0 of lights and of nothing; 1 of surfaces with -i); direct.R .G .B (light that
+                       comes from lights by one reflection, or none, by mirrors before that or not); indirect.R .G .B
+                       (all other: the value is the sum of both) */
 } picture_content;
 
 typedef struct picture_settings {

@@ -12,13 +12,20 @@
 #include "trace/lobes.h"
 #include "trace/vertex.h"
 
+static void add_ambient_value(path *p, const vertex *v) {
+    rgb light = rgb_multiply(p->throughput, rgb_multiply(v->ambient, p->context->settings->ambient_value));
+    p->radiance = rgb_add(p->radiance, light);
+    if (!p->scattered)
+        p->ambient_light = rgb_add(p->ambient_light, light);
+}
+
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, vertex v) {
     const path_context *context = p->context;
     for (;;) {
+        bool scattered = p->scattered;
         if (!path_bounces_left(p))
-            p->radiance = rgb_add(
-                p->radiance, rgb_multiply(p->throughput, rgb_multiply(v.ambient, context->settings->ambient_value)));
+            add_ambient_value(p, &v);
         lobe_choice choice = lobes_choose(p, &v);
         light_receiver receiver = direct_light_receiver(p, &v);
         p->known.lights = p->known.settled = 0;
@@ -34,6 +41,8 @@ static void follow(path *p, vertex v) {
         path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
+        if (!scattered)
+            p->direct = p->radiance;
         if (p->known.lights)
             known_light_subtract_reflected(p, &v, &hit, found);
         if (!vertex_at_hit(p, &hit, &v))
@@ -41,12 +50,13 @@ static void follow(path *p, vertex v) {
     }
 }
 
-/* Sets all but what is written before it is read: the last reflection, and controls beyond their number. */
+/* Sets all but what is written before it is read: the last reflection, what it found, and controls beyond their
+ * number. */
 static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->throughput = (rgb){1, 1, 1};
-    p->radiance = (rgb){0, 0, 0};
+    p->radiance = p->ambient_light = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
@@ -62,6 +72,8 @@ static path_sample path_end(const path *p, uint32_t first_group) {
     sample.noisy = p->sampler->group != first_group;
     sample.searching = p->searching;
     sample.integrated = p->integrated;
+    rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
+    sample.indirect = rgb_add(later, p->ambient_light);
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
     return sample;
@@ -74,9 +86,15 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     vertex v;
     if (first->light >= 0)
         p.radiance = emission_found(&p, first);
-    if (vertex_at_hit(&p, first, &v))
+    rgb albedo = rgb_gray(0);
+    if (vertex_at_hit(&p, first, &v)) {
+        bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
+        albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
         follow(&p, v);
-    return path_end(&p, first_group);
+    }
+    path_sample sample = path_end(&p, first_group);
+    sample.albedo = albedo;
+    return sample;
 }
 
 path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {

@@ -39,6 +39,8 @@ typedef struct path {
     const path_context *context;
     sampler *sampler;
     rgb throughput, radiance;
+    rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
+    rgb ambient_light; /* of the ambient value, before the path scattered */
     int ambient_depth; /* diffuse reflections so far */
     int depth;         /* all reflections so far */
     bool scattered;    /* whether any of them was not a mirror's */
