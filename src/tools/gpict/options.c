@@ -65,19 +65,27 @@ static graze_status take_output(void *target, const char *suffix, int count, con
     return add_output(target, words[0], report);
 }
 
-/* -r FILE, -ro FILE. */
 static graze_status take_recover(void *target, const char *suffix, int count, const char *const *words, int *used,
                                  const graze_report *report) {
     gpict_options *o = target;
-    bool output = strcmp(suffix, "o") == 0;
-    if (*suffix && !output)
+    if (*suffix)
         return report_error(report, NULL, "unknown option '-r%s'", suffix);
     if (count < 1)
-        return report_error(report, NULL, "option '-r%s' needs the name of a picture that was begun", suffix);
+        return report_error(report, NULL, "options '-r' and '-ro' need the name of a picture that was begun");
     *used = 1;
     o->recover = words[0];
-    o->recover_output = output;
-    return output ? add_output(&o->pictures, words[0], report) : GRAZE_OK;
+    o->recover_output = false;
+    return GRAZE_OK;
+}
+
+static graze_status take_recover_output(void *target, const char *suffix, int count, const char *const *words,
+                                        int *used, const graze_report *report) {
+    gpict_options *o = target;
+    graze_status status = take_recover(o, suffix, count, words, used, report);
+    if (status != GRAZE_OK)
+        return status;
+    o->recover_output = true;
+    return add_output(&o->pictures, words[0], report);
 }
 
 void gpict_options_table(gpict_options *o, option table[GPICT_TABLE_SIZE]) {
@@ -119,8 +127,8 @@ void gpict_options_table(gpict_options *o, option table[GPICT_TABLE_SIZE]) {
         {"--contours-per-decade", OPTION_INTEGER, &o->contours_per_decade, "N",
          "lines for a factor of ten in luminance", 1, 20, NULL, NULL},
         {"", OPTION_HEADING, NULL, NULL, "On the way", 0, 0, NULL, NULL},
-        {"-r", OPTION_CUSTOM, o, "FILE", "go on with a picture that was begun; -ro FILE: and write it there", 0, 0,
-         take_recover, NULL},
+        {"-r", OPTION_CUSTOM, o, "FILE", "go on with a picture that was begun", 0, 0, take_recover, NULL},
+        {"-ro", OPTION_CUSTOM, o, "FILE", "the same, and -o FILE", 0, 0, take_recover_output, NULL},
         {"--checkpoint", OPTION_TEXT, &o->checkpoint, "FILE", "of what is done; else OUTPUT.checkpoint", 0, 0, NULL,
          NULL},
         {"--checkpoint-interval", OPTION_REAL, &o->checkpoint_interval, "S", "seconds between checkpoints; 0: none", 0,
@@ -141,25 +149,16 @@ void gpict_options_table(gpict_options *o, option table[GPICT_TABLE_SIZE]) {
  * has itself. */
 static bool is_beside(const char *name) {
     static const char *const names[] = {
-        "-x",
-        "-y",
-        "-pa",
-        "-ps",
-        "-pt",
-        "-S",
-        "-o",
-        "-z",
-        "-r",
-        "-t",
-        "-n",
-        "-w",
-        "--exposure",
-        "--contours",
-        "--contours-per-decade",
-        "--checkpoint",
-        "--checkpoint-interval",
-        "--preview",
-        "--preview-interval",
+        "-x",           "-y",
+        "-pa",          "-ps",
+        "-pt",          "-S",
+        "-o",           "-z",
+        "-r",           "-ro",
+        "-t",           "-n",
+        "-w",           "--exposure",
+        "--contours",   "--contours-per-decade",
+        "--checkpoint", "--checkpoint-interval",
+        "--preview",    "--preview-interval",
         "--progress",
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)

@@ -32,7 +32,7 @@ typedef struct gpict_options {
 
 gpict_options gpict_options_default(void);
 
-enum { GPICT_OPTION_COUNT = 35, GPICT_TABLE_SIZE = GPICT_OPTION_COUNT + RENDER_OPTION_COUNT };
+enum { GPICT_OPTION_COUNT = 36, GPICT_TABLE_SIZE = GPICT_OPTION_COUNT + RENDER_OPTION_COUNT };
 
 /* Fills in the table: entries that store into the options. */
 void gpict_options_table(gpict_options *, option table[GPICT_TABLE_SIZE]);
