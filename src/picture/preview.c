@@ -17,25 +17,38 @@ enum { LEVELS_MOST = 24 };
 typedef struct pyramid {
     level levels[LEVELS_MOST];
     int count;
+    float *memory; /* of all */
 } pyramid;
 
-static void pyramid_free(pyramid *p) {
-    for (int k = 0; k < p->count; k++)
-        free(p->levels[k].counts);
+static size_t level_size(const level *l) {
+    return (size_t)l->width * (size_t)l->height;
 }
 
-static bool add_level(pyramid *p, int width, int height) {
-    size_t count = (size_t)width * (size_t)height;
-    float *memory = calloc(4 * count, sizeof *memory);
-    if (!memory)
+/* All zero. False when out of memory. */
+static bool pyramid_create(pyramid *p, int width, int height) {
+    size_t total = (size_t)width * (size_t)height;
+    p->count = 1;
+    p->levels[0] = (level){.width = width, .height = height};
+    while (p->levels[p->count - 1].width > 1 || p->levels[p->count - 1].height > 1) {
+        const level *fine = &p->levels[p->count - 1];
+        p->levels[p->count] = (level){.width = (fine->width + 1) / 2, .height = (fine->height + 1) / 2};
+        total += level_size(&p->levels[p->count++]);
+    }
+    float *next = p->memory = calloc(4 * total, sizeof *next);
+    if (!p->memory)
         return false;
-    p->levels[p->count++] = (level){width, height, {memory + count, memory + 2 * count, memory + 3 * count}, memory};
+    for (int k = 0; k < p->count; k++) {
+        level *l = &p->levels[k];
+        l->counts = next;
+        for (int c = 0; c < 3; c++)
+            l->sums[c] = next + (size_t)(c + 1) * level_size(l);
+        next += 4 * level_size(l);
+    }
     return true;
 }
 
 static void fill_first(level *l, const film *f) {
-    size_t count = (size_t)l->width * (size_t)l->height;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < level_size(l); i++) {
         if (film_state_of(f, i) == FILM_MISSING)
             continue;
         l->counts[i] = 1;
@@ -55,18 +68,10 @@ static void add_up(level *coarse, const level *fine) {
         }
 }
 
-static bool build(pyramid *p, const film *f) {
-    p->count = 0;
-    if (!add_level(p, f->image->width, f->image->height))
-        return false;
+static void build(pyramid *p, const film *f) {
     fill_first(&p->levels[0], f);
-    while (p->levels[p->count - 1].width > 1 || p->levels[p->count - 1].height > 1) {
-        const level *fine = &p->levels[p->count - 1];
-        if (!add_level(p, (fine->width + 1) / 2, (fine->height + 1) / 2))
-            return false;
-        add_up(&p->levels[p->count - 1], fine);
-    }
-    return true;
+    for (int k = 1; k < p->count; k++)
+        add_up(&p->levels[k], &p->levels[k - 1]);
 }
 
 /* A pixel is the mean of what is finished in the smallest of the squares around it that have anything. */
@@ -87,18 +92,18 @@ static void fill(image *out, const pyramid *p) {
 }
 
 graze_status picture_preview(const rendering *p, image **out, const graze_report *report) {
-    pyramid squares;
     const image *from = p->film.image;
-    *out = image_create(from->width, from->height, 3, NULL);
-    bool good = build(&squares, &p->film);
-    if (good && *out) {
-        (*out)->pixel_aspect = from->pixel_aspect;
-        fill(*out, &squares);
-    }
-    pyramid_free(&squares);
-    if (good && *out)
-        return GRAZE_OK;
-    image_destroy(*out);
+    pyramid squares;
     *out = NULL;
-    return report_out_of_memory(report);
+    if (!pyramid_create(&squares, from->width, from->height))
+        return report_out_of_memory(report);
+    build(&squares, &p->film);
+    image *shown = image_create(from->width, from->height, 3, NULL);
+    if (shown) {
+        shown->pixel_aspect = from->pixel_aspect;
+        fill(shown, &squares);
+    }
+    free(squares.memory);
+    *out = shown;
+    return shown ? GRAZE_OK : report_out_of_memory(report);
 }

@@ -1,8 +1,8 @@
 /* gpict: pictures of a scene, in rpict's manners. */
 #include "tools/common/tool.h"
-#include "tools/gpict/shot.h"
 #include "tools/gpict/options.h"
 #include "tools/gpict/sequence.h"
+#include "tools/gpict/shot.h"
 #include "tools/gpict/watch.h"
 
 enum { COARSEST = 16 };

@@ -56,7 +56,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->throughput = (rgb){1, 1, 1};
-    p->radiance = p->ambient_light = (rgb){0, 0, 0};
+    p->radiance = p->ambient_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
@@ -74,6 +74,7 @@ static path_sample path_end(const path *p, uint32_t first_group) {
     sample.integrated = p->integrated;
     rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
     sample.indirect = rgb_add(later, p->ambient_light);
+    sample.albedo = p->albedo;
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
     return sample;
@@ -86,15 +87,12 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     vertex v;
     if (first->light >= 0)
         p.radiance = emission_found(&p, first);
-    rgb albedo = rgb_gray(0);
     if (vertex_at_hit(&p, first, &v)) {
         bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
-        albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
+        p.albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
         follow(&p, v);
     }
-    path_sample sample = path_end(&p, first_group);
-    sample.albedo = albedo;
-    return sample;
+    return path_end(&p, first_group);
 }
 
 path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {

@@ -40,6 +40,7 @@ typedef struct path {
     sampler *sampler;
     rgb throughput, radiance;
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
+    rgb albedo; /* of the first point */
     rgb ambient_light; /* of the ambient value, before the path scattered */
     int ambient_depth; /* diffuse reflections so far */
     int depth;         /* all reflections so far */

@@ -25,12 +25,16 @@ struct shot {
 
 /* ---- Before ---- */
 
-/* Two views that look the same way. */
+static bool same_vector(vec3 a, vec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Two views, both prepared, that look the same way. */
 static bool same_view(const rad_view *a, const rad_view *b) {
-    return a->type == b->type && memcmp(&a->point, &b->point, sizeof a->point) == 0 &&
-           memcmp(&a->axis, &b->axis, sizeof a->axis) == 0 && memcmp(&a->right, &b->right, sizeof a->right) == 0 &&
-           memcmp(&a->above, &b->above, sizeof a->above) == 0 && a->shift == b->shift && a->lift == b->lift &&
-           a->fore == b->fore && a->aft == b->aft && a->horizontal == b->horizontal && a->vertical == b->vertical;
+    return a->type == b->type && same_vector(a->point, b->point) && same_vector(a->axis, b->axis) &&
+           same_vector(a->right, b->right) && same_vector(a->above, b->above) && a->shift == b->shift &&
+           a->lift == b->lift && a->fore == b->fore && a->aft == b->aft && a->horizontal == b->horizontal &&
+           a->vertical == b->vertical;
 }
 
 static bool is_default_view(const gpict_options *o) {
