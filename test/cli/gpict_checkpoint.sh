@@ -104,6 +104,8 @@ rm -f s.*
 "$gpict" "${slow[@]}" --checkpoint c --preview q.png --preview-interval .02 room.rad >s.hdr 2>err & while kill -0 $! && [ ! -e q.png ]; do :; done 2>/dev/null
 ended TERM
 check "--preview-interval does without being asked" test "$(head -c 4 q.png | od -An -tx1 | tr -d ' ')" = 89504e47
+fails "--preview-interval without a name" 1 "--preview" "" "$gpict" --preview-interval 1 room.rad
+fails "--preview where nothing can be written" 1 "nowhere/p.hdr" "" "$gpict" --preview nowhere/p.hdr room.rad
 check "-t says in the end how it was" sh -c "$gpict -t 1000 ${view[*]} -x 8 -y 8 --samples 4 room.rad 2>&1 >s.hdr | grep '256 paths, 100.00%'"
 check "nothing else is said without a terminal" sh -c "$gpict ${view[*]} -x 8 -y 8 --samples 4 room.rad 2>&1 >s.hdr | cmp - /dev/null"
 if script -qec true /dev/null >s 2>&1; then

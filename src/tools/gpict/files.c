@@ -51,7 +51,7 @@ static bool find_beside(picture_files *f, arena *memory, const gpict_options *o,
 
 graze_status files_find(picture_files *f, arena *memory, const gpict_options *o, int number,
                         const graze_report *report) {
-    *f = (picture_files){.count = o->pictures.count};
+    *f = (picture_files){.count = o->pictures.count, .preview_wanted = *o->preview || o->preview_interval > 0};
     bool good = true;
     for (int i = 0; i < f->count; i++) {
         f->pictures[i] = name_of_frame(memory, o->pictures.files[i], number);
@@ -87,8 +87,9 @@ graze_status files_check(const picture_files *f, const graze_report *report) {
         for (int j = 0; j < i && status == GRAZE_OK; j++)
             if (is_same(files[i], files[j]))
                 status = report_error(report, NULL, "%s is to be written twice", files[i]);
-    if (status == GRAZE_OK && f->preview)
-        status = image_check_writable(f->preview, report);
+    if (status == GRAZE_OK && f->preview_wanted)
+        status = f->preview ? image_check_writable(f->preview, report)
+                            : report_error(report, NULL, "--preview-interval needs --preview, or a picture in a file");
     return status;
 }
 

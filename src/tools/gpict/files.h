@@ -13,6 +13,7 @@ typedef struct picture_files {
     const char *contours, *depth; /* null: none */
     const char *checkpoint;       /* null: there is no place for one */
     const char *preview;          /* the same */
+    bool preview_wanted;          /* the user has asked for one beforehand */
     const char *recover;          /* a checkpoint to go on with; null: the picture is to be begun */
 } picture_files;
 

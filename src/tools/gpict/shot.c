@@ -235,7 +235,7 @@ static graze_status render(shot *f, job *j, rendering *picture, const checkpoint
         .checkpoint = f->files.checkpoint,
         .labels = *labels,
         .checkpoint_interval = o->checkpoint_interval,
-        .preview_interval = f->files.preview ? o->preview_interval : 0,
+        .preview_interval = o->preview_interval,
         .report_interval = o->report_interval,
         .bar = o->progress,
         .preview = write_preview,
