@@ -101,6 +101,6 @@ check "-defaults can be read again" sh -c "$gpict @defaults -defaults | cmp - de
 # The command lines of rpict's users.
 accepted() { check "accepts $*" "$gpict" "${small[@]}" "$@" -o accepted.hdr room.rad; }
 accepted -i -u -bv -dt .1 -dc .5 -dj .9 -ds .2 -dr 1 -dp 256 -dv -ss 1 -st .1 -av .1 .1 .1 -aw 0 -ab 1 -ar 48 -aa .1 -ad 1536 -as 392
-accepted -dp 256 -ar 48 -ms 1 -ds .2 -dj .9 -dt .1 -dc .5 -dr 1 -ss 1 -st .1 -ab 2 -aa .1 -ad 1536 -as 392 -av 25 25 25 -lr 8 -lw 1e-4
+accepted -dp 256 -ar 48 -ds .2 -dj .9 -dt .1 -dc .5 -dr 1 -ss 1 -st .1 -ab 2 -aa .1 -ad 1536 -as 392 -av 25 25 25 -lr 8 -lw 1e-4
 accepted -pa 1 -pj .67 -pm 0 -pd 0 -ps 4 -pt .05 -t 0 -w+ -pRGB -vtv -vp 0 0 0 -vd 0 1 0 -vu 0 0 1 -vh 45 -vv 45 -vo 0 -va 0 -vs 0 -vl 0
 plan
