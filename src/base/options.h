@@ -66,6 +66,9 @@ typedef enum options_outcome {
  * its present value in re-readable form (options before it reflected) to standard output. */
 graze_status options_parse(const option_table *, options_arguments *, int *operand_count, const char *const **operands,
                            options_outcome *, const graze_report *);
+/* The option with its value, as -defaults prints it and without its help: "" where it has none. To be freed; null when
+ * out of memory. */
+char *options_value(const option *);
 /* A word in quotes where a shell or a file of options would need them, for `print`. */
 void options_print_word(FILE *, const char *word);
 /* All words as given (before expansion), quoted where a shell would need it, for headers; line breaks become blanks. In

@@ -63,8 +63,8 @@ static void print_option(FILE *out, const option *o) {
     }
 }
 
-/* As print_option, into memory that the caller frees, without blanks at its end. Null: out of memory. */
-static char *option_text(const option *o) {
+/* Without blanks at its end. */
+char *options_value(const option *o) {
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
@@ -95,7 +95,7 @@ static void print_default(const char *text, const char *help) {
 
 graze_status options_print_defaults(const option_table *table, const graze_report *report) {
     for (int i = 0; i < table->count; i++) {
-        char *text = option_text(&table->options[i]);
+        char *text = options_value(&table->options[i]);
         if (!text)
             return report_out_of_memory(report);
         if (*text)
@@ -150,7 +150,7 @@ graze_status options_print_help(const option_table *table, const graze_report *r
             printf("\n%s:\n", o->help);
             continue;
         }
-        char *text = option_text(o);
+        char *text = options_value(o);
         if (!text)
             return report_out_of_memory(report);
         print_help_option(o, value_text(o, text));

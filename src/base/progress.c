@@ -18,6 +18,7 @@ struct progress {
     char what[64];
     pthread_mutex_t drawing;
     int64_t started, drawn; /* milliseconds; drawn: 0 before the first time */
+    double before;          /* what was done already when that came */
 };
 
 static int64_t milliseconds(void) {
@@ -57,7 +58,8 @@ static size_t terminal_width(void) {
     return 79;
 }
 
-/* An early estimate of the time left would be a guess: it waits for a second and a hundredth of the work. */
+/* An early estimate of the time left would be a guess: it waits for a second and a hundredth of the work. Work that was
+ * done before the start, as of a picture that goes on, tells nothing of speed. */
 static void format_line(char line[LONGEST_LINE], const progress *p, double done, int64_t elapsed, const char *detail) {
     char bar[BAR_WIDTH + 1], spent[32], left[32] = "-:--";
     int full = (int)(done * BAR_WIDTH);
@@ -65,8 +67,8 @@ static void format_line(char line[LONGEST_LINE], const progress *p, double done,
     memset(bar + full, '.', (size_t)(BAR_WIDTH - full));
     bar[BAR_WIDTH] = 0;
     format_duration(spent, elapsed);
-    if (elapsed >= 1000 && done >= .01)
-        format_duration(left, (int64_t)((double)elapsed * (1 - done) / done));
+    if (elapsed >= 1000 && done - p->before >= .01)
+        format_duration(left, (int64_t)((double)elapsed * (1 - done) / (done - p->before)));
     snprintf(line, LONGEST_LINE, "%s %3d%% [%s] %s spent, %s left%s%s", p->what, (int)(100 * done), bar, spent, left,
              detail ? "  " : "", detail ? detail : "");
     size_t width = terminal_width();
@@ -81,7 +83,10 @@ void progress_update(progress *p, double done, const char *detail) {
     int64_t now = milliseconds();
     if (p->drawn == 0 || now - p->drawn >= 100) {
         char line[LONGEST_LINE];
-        format_line(line, p, done > 0 ? (done < 1 ? done : 1) : 0, now - p->started, detail);
+        done = done > 0 ? (done < 1 ? done : 1) : 0;
+        if (p->drawn == 0)
+            p->before = done;
+        format_line(line, p, done, now - p->started, detail);
         fprintf(stderr, TERMINAL_ERASE_LINE "%s", line);
         p->drawn = now;
     }

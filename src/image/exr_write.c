@@ -58,6 +58,9 @@ static exr_result_t set_attributes(exr_context_t context, const image *picture) 
     /* cd/m^2 of (1, 1, 1) */
     if (result == EXR_ERR_SUCCESS)
         result = exr_attr_set_float(context, 0, "whiteLuminance", (float)IMAGE_LUMINOUS_EFFICACY);
+    /* What the values have been multiplied by, as behind Radiance's EXPOSURE=. */
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_attr_set_float(context, 0, "exposure", 1);
     /* OpenEXR's ratio is width over height. */
     if (result == EXR_ERR_SUCCESS)
         result = exr_set_pixel_aspect_ratio(context, 0, (float)(1 / picture->pixel_aspect));
@@ -68,6 +71,8 @@ static exr_result_t set_attributes(exr_context_t context, const image *picture) 
         result = set_text(context, "command", picture->command);
     if (result == EXR_ERR_SUCCESS)
         result = set_text(context, "software", picture->software);
+    if (result == EXR_ERR_SUCCESS && picture->frame > 0)
+        result = exr_attr_set_int(context, 0, "frame", picture->frame);
     return result;
 }
 

@@ -30,6 +30,8 @@ static void write_header(const image *picture, FILE *out) {
         write_line(out, "", skip_blanks(picture->command));
     if (picture->software)
         write_line(out, "SOFTWARE= ", skip_blanks(picture->software));
+    if (picture->frame > 0)
+        fprintf(out, "FRAME=%d\n", picture->frame);
     if (picture->view)
         write_line(out, "VIEW= ", skip_blanks(picture->view));
     if (picture->pixel_aspect < 0.995 || picture->pixel_aspect > 1.005) {

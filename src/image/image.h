@@ -19,6 +19,7 @@ typedef struct image {
     const char *view;        /* as behind `VIEW=`, or null */
     const char *command;     /* the command line that made it, or null */
     const char *software;    /* "Graze 0.1.0", or null */
+    int frame;               /* its number in a sequence, 0 where it is in none */
     double display_exposure; /* factor that image_expose applies; 0: chosen by the picture */
     char *text;              /* what view, command and software of a picture read lie in; null for ours */
 } image;
@@ -36,7 +37,8 @@ float *image_channel(const image *, const char *name);
  * values become 0, what is too large becomes the largest value the format holds. */
 graze_status image_write_hdr(const image *, FILE *, const char *name, const graze_report *);
 /* Writes the file in the format of its suffix: .hdr and .pic as above; .exr with all layers, float, Radiance's
- * primaries as chromaticities, whiteLuminance 179, view, command and software as attributes; all others 8 bits a
+ * primaries as chromaticities, whiteLuminance 179, exposure 1 (values are radiance), view, command, software and frame
+ * as attributes; all others 8 bits a
  * channel through OpenImageIO, exposed as image_expose does. The file appears whole or not at all (written under
  * another name, then renamed); a failing write is a system error and leaves nothing behind. What is no regular file (a
  * pipe, /dev/stdout, /dev/null) is written to directly; without a suffix it gets Radiance HDR. */

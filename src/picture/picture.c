@@ -1,71 +1,63 @@
-/* Rendering: pixels are independent estimates, computed in tiles on all threads. */
+/* Rendering: pixels are independent estimates, computed on all threads. */
 #include "picture/picture.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 
-#include "base/number.h"
 #include "base/parallel.h"
-#include "base/progress.h"
+#include "picture/camera.h"
+#include "picture/state.h"
 #include "trace/estimate.h"
 #include "trace/path.h"
 
-#define TILE 16
 /* The sparse grid that the picture's mean is estimated from has at most this many pixels a side, each with this many
  * samples. */
 #define PILOT_SIDE    64
 #define PILOT_SAMPLES 16
 
-/* The planes of the image, by meaning. */
-typedef struct planes {
-    float *value[3], *error[3], *samples, *depth, *normal[3];
-} planes;
-
-typedef struct rendering {
-    const picture_settings *picture;
-    graze_trace_settings trace;
-    const graze_scene *scene;
-    image *image;
-    planes planes;
-    progress *progress;
-    int tiles_across, tiles_down;
-    atomic_size_t tiles_done, unconverged;
-} rendering;
-
-static const char *const channel_names[] = {
-    "R",         "G",       "B",        "standard_error.R", "standard_error.G", "standard_error.B",
-    "samples.Y", "depth.Z", "normal.X", "normal.Y",         "normal.Z",
-};
+/* Of one pixel, for the mean: one that does not know its own value must not stand for all. */
+#define LARGEST_ERROR 16.0
+#define ERROR_UNITS   4294967296.0
 
 /* A pixel as estimate_sample sees it. */
 typedef struct pixel {
-    const rendering *rendering;
+    const rendering *picture;
     int column, row;
     path_memory *memory;
 } pixel;
 
-/* The ray through a point of the pixel, (0.5, 0.5) its centre, x to the right, y up. */
-static bool pixel_ray(const pixel *p, double x, double y, graze_ray *ray) {
-    const picture_settings *s = p->rendering->picture;
-    ray->limit = 0;
-    return rad_view_ray(&s->view, (p->column + x) / s->width, (s->height - 1 - p->row + y) / s->height, &ray->origin,
-                        &ray->direction, &ray->limit);
+static bool is_stopped(const rendering *p) {
+    return atomic_load_explicit(&p->stopped, memory_order_relaxed);
+}
+
+/* Whether the rays of a pixel differ. */
+static bool is_spread(const picture_settings *s) {
+    return s->jitter > 0 || s->aperture > 0 || s->shutter > 0;
+}
+
+/* Draws from the sampler only what the camera needs. False where the samples are all of one ray. */
+static bool sample_camera(const picture_settings *s, sampler *points, camera_sample *sample) {
+    *sample = camera_center;
+    if (s->jitter > 0) {
+        double random[2];
+        sampler_2d(points, random);
+        sample->x += s->jitter * (random[0] - 0.5);
+        sample->y += s->jitter * (random[1] - 0.5);
+    }
+    if (s->aperture > 0)
+        sampler_2d(points, sample->lens);
+    if (s->shutter > 0)
+        sample->time = sampler_1d(points) - 0.5;
+    return is_spread(s);
 }
 
 static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck) {
     const pixel *p = user;
-    const rendering *r = p->rendering;
-    double jitter = r->picture->jitter;
-    double random[2] = {0.5, 0.5};
-    *luck = ESTIMATE_EXACT;
-    if (jitter > 0) {
-        sampler_2d(points, random);
-        *luck = ESTIMATE_PLACE;
-    }
+    camera_sample at;
     graze_ray ray;
-    if (!pixel_ray(p, 0.5 + jitter * (random[0] - 0.5), 0.5 + jitter * (random[1] - 0.5), &ray))
+    *luck = sample_camera(&p->picture->settings, points, &at) ? ESTIMATE_PLACE : ESTIMATE_EXACT;
+    if (!camera_ray(&p->picture->settings, p->column, p->row, &at, &ray))
         return (path_sample){.noisy = false};
-    path_context context = {.scene = r->scene, .settings = &r->trace, .memory = p->memory};
+    path_context context = {.scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     path_sample sample = path_radiance(&context, &first, points);
     if (sample.noisy)
@@ -73,63 +65,71 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     return sample;
 }
 
-static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings) {
-    uint64_t number = (uint64_t)p->row * (uint64_t)p->rendering->picture->width + (uint64_t)p->column;
+/* `parts` may be null. */
+static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings, estimate_parts *parts) {
+    uint64_t number = (uint64_t)p->row * (uint64_t)p->picture->settings.width + (uint64_t)p->column;
     graze_answer answer;
-    path_memory known = {.alike = !(p->rendering->picture->jitter > 0)};
-    pixel remembering = {p->rendering, p->column, p->row, &known};
-    estimate(settings, number, sample_pixel, &remembering, &answer);
+    path_memory known = {.alike = !is_spread(&p->picture->settings)};
+    pixel remembering = {p->picture, p->column, p->row, &known};
+    estimate_with_parts(settings, number, sample_pixel, &remembering, &answer, parts);
     return answer;
 }
 
 /* Depth and normal on the ray through the pixel's centre. */
-static void store_geometry(const pixel *p, size_t at) {
-    const rendering *r = p->rendering;
+static void look_at_geometry(const rendering *p, int column, int row, film_pixel *found) {
     graze_ray ray;
     graze_hit hit;
-    if (!pixel_ray(p, 0.5, 0.5, &ray))
+    if (p->settings.content == PICTURE_COLOR || !camera_ray(&p->settings, column, row, &camera_center, &ray))
         return;
-    graze_cast(r->scene, &r->trace, &ray, &hit);
-    r->planes.depth[at] = number_to_float(hit.distance);
-    r->planes.normal[0][at] = number_to_float(hit.shading_normal.x);
-    r->planes.normal[1][at] = number_to_float(hit.shading_normal.y);
-    r->planes.normal[2][at] = number_to_float(hit.shading_normal.z);
+    graze_cast(p->scene, &p->trace, &ray, &hit);
+    found->depth = hit.distance;
+    found->normal = hit.shading_normal;
 }
 
-static void store_rgb(float *const plane[3], size_t at, rgb value) {
-    plane[0][at] = number_to_float(value.r);
-    plane[1][at] = number_to_float(value.g);
-    plane[2][at] = number_to_float(value.b);
+/* What --error is about. */
+static double relative_error(const graze_answer *answer, double floor) {
+    double error = rgb_max(answer->standard_error), value = fmax(rgb_max(answer->value), floor);
+    return error > 0 ? fmin(error / value, LARGEST_ERROR) : 0;
 }
 
-static void render_pixel(rendering *r, int column, int row) {
-    pixel p = {r, column, row, NULL};
-    size_t at = (size_t)row * (size_t)r->picture->width + (size_t)column;
-    graze_answer answer = estimate_pixel(&p, &r->trace);
-    store_rgb(r->planes.value, at, answer.value);
-    if (!answer.converged)
-        atomic_fetch_add(&r->unconverged, 1);
-    if (!r->picture->layers)
+void picture_count(rendering *p, size_t at) {
+    atomic_fetch_add(&p->error, (unsigned long long)((double)p->film.reached[at] * ERROR_UNITS));
+    if (film_state_of(&p->film, at) == FILM_UNCONVERGED)
+        atomic_fetch_add(&p->unconverged, 1);
+    atomic_fetch_add(&p->finished, 1);
+}
+
+static void render_pixel(rendering *p, int column, int row) {
+    size_t at = (size_t)row * (size_t)p->settings.width + (size_t)column;
+    if (film_state_of(&p->film, at) != FILM_MISSING)
         return;
-    store_rgb(r->planes.error, at, answer.standard_error);
-    r->planes.samples[at] = number_to_float(answer.samples);
-    store_geometry(&p, at);
+    estimate_parts parts = {{0, 0, 0}, {0, 0, 0}};
+    bool layers = p->settings.content == PICTURE_LAYERS;
+    film_pixel result = {.answer = estimate_pixel(&(pixel){p, column, row, NULL}, &p->trace, layers ? &parts : NULL)};
+    result.albedo = parts.albedo;
+    result.indirect = parts.indirect;
+    result.reached = relative_error(&result.answer, p->trace.floor);
+    look_at_geometry(p, column, row, &result);
+    film_finish(&p->film, at, &result);
+    atomic_fetch_add(&p->paths, result.answer.samples);
+    picture_count(p, at);
 }
 
-static void render_tile(void *user, size_t index, int worker) {
+static void render_piece(void *user, size_t index, int worker) {
     (void)worker;
-    rendering *r = user;
-    int left = (int)(index % (size_t)r->tiles_across) * TILE, top = (int)(index / (size_t)r->tiles_across) * TILE;
-    for (int row = top; row < top + TILE && row < r->picture->height; row++)
-        for (int column = left; column < left + TILE && column < r->picture->width; column++)
-            render_pixel(r, column, row);
-    size_t done = atomic_fetch_add(&r->tiles_done, 1) + 1;
-    progress_update(r->progress, (double)done / ((double)r->tiles_across * r->tiles_down), NULL);
+    rendering *p = user;
+    order_piece piece = order_piece_at(&p->order, index);
+    for (int row = piece.top; row < piece.bottom; row += piece.step_down)
+        for (int column = piece.left; column < piece.right; column += piece.step) {
+            if (is_stopped(p))
+                return;
+            render_pixel(p, column, row);
+        }
 }
 
 /* Pilot pixels: the mean of the picture, before it is there. */
 typedef struct pilot {
-    const rendering *rendering;
+    const rendering *picture;
     graze_trace_settings trace;
     int columns, rows;
     rgb *values;
@@ -138,16 +138,18 @@ typedef struct pilot {
 static void sample_pilot(void *user, size_t index, int worker) {
     (void)worker;
     pilot *p = user;
-    const picture_settings *s = p->rendering->picture;
+    if (is_stopped(p->picture))
+        return;
+    const picture_settings *s = &p->picture->settings;
     int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
-    pixel at = {p->rendering, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
+    pixel at = {p->picture, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
                 NULL};
-    p->values[index] = estimate_pixel(&at, &p->trace).value;
+    p->values[index] = estimate_pixel(&at, &p->trace, NULL).value;
 }
 
-static graze_status estimate_mean(const rendering *r, double *mean, const graze_report *report) {
-    const picture_settings *s = r->picture;
-    pilot p = {.rendering = r, .trace = r->trace};
+static graze_status estimate_mean(const rendering *whole, double *mean, const graze_report *report) {
+    const picture_settings *s = &whole->settings;
+    pilot p = {.picture = whole, .trace = whole->trace};
     p.columns = s->width < PILOT_SIDE ? s->width : PILOT_SIDE;
     p.rows = s->height < PILOT_SIDE ? s->height : PILOT_SIDE;
     p.trace.samples = PILOT_SAMPLES;
@@ -164,46 +166,66 @@ static graze_status estimate_mean(const rendering *r, double *mean, const graze_
     return GRAZE_OK;
 }
 
-static void find_planes(rendering *r) {
-    float **channel = r->image->channels;
-    planes *p = &r->planes;
-    for (int i = 0; i < 3; i++)
-        p->value[i] = channel[i];
-    if (!r->picture->layers)
-        return;
-    for (int i = 0; i < 3; i++) {
-        p->error[i] = channel[3 + i];
-        p->normal[i] = channel[8 + i];
+graze_status picture_begin(rendering **out, const graze_scene *scene, const graze_trace_settings *trace,
+                           const picture_settings *settings, const graze_report *report) {
+    rendering *p = *out = calloc(1, sizeof *p);
+    if (!p)
+        return report_out_of_memory(report);
+    p->settings = *settings;
+    p->trace = *trace;
+    p->scene = scene;
+    p->order = order_create(settings->width, settings->height, settings->spacing);
+    atomic_init(&p->stopped, false);
+    atomic_init(&p->floor_known, false);
+    atomic_init(&p->finished, 0);
+    atomic_init(&p->unconverged, 0);
+    atomic_init(&p->paths, 0);
+    atomic_init(&p->error, 0);
+    if (!film_create(&p->film, settings->width, settings->height, settings->content)) {
+        free(p);
+        *out = NULL;
+        return report_out_of_memory(report);
     }
-    p->samples = channel[6];
-    p->depth = channel[7];
+    p->film.image->pixel_aspect = settings->pixel_aspect;
+    return GRAZE_OK;
 }
 
-graze_status picture_render(image **out, const graze_scene *scene, const graze_trace_settings *trace,
-                            const picture_settings *picture, size_t *unconverged, const graze_report *report) {
-    rendering r = {.picture = picture, .trace = *trace, .scene = scene};
-    *out = NULL;
-    int channel_count = picture->layers ? (int)(sizeof channel_names / sizeof *channel_names) : 3;
-    r.image = image_create(picture->width, picture->height, channel_count, channel_names);
-    if (!r.image)
-        return report_out_of_memory(report);
-    r.image->pixel_aspect = picture->pixel_aspect;
-    find_planes(&r);
-    r.tiles_across = (picture->width + TILE - 1) / TILE;
-    r.tiles_down = (picture->height + TILE - 1) / TILE;
-    if (!trace->samples) {
+void picture_destroy(rendering *p) {
+    if (!p)
+        return;
+    film_free(&p->film);
+    free(p);
+}
+
+graze_status picture_render(rendering *p, const graze_report *report) {
+    if (!atomic_load(&p->floor_known) && !p->trace.samples) {
         double mean = 0;
-        graze_status status = estimate_mean(&r, &mean, report);
-        if (status != GRAZE_OK) {
-            image_destroy(r.image);
+        graze_status status = estimate_mean(p, &mean, report);
+        if (status != GRAZE_OK || is_stopped(p))
             return status;
-        }
-        r.trace.floor = fmax(r.trace.floor, PICTURE_FLOOR * mean);
+        p->trace.floor = fmax(p->trace.floor, PICTURE_FLOOR * mean);
     }
-    r.progress = progress_start("rendering", picture->progress);
-    parallel_for(picture->threads, (size_t)r.tiles_across * (size_t)r.tiles_down, render_tile, &r);
-    progress_finish(r.progress);
-    *unconverged = atomic_load(&r.unconverged);
-    *out = r.image;
+    atomic_store(&p->floor_known, true);
+    parallel_for(p->settings.threads, order_count(&p->order), render_piece, p);
     return GRAZE_OK;
+}
+
+void picture_stop(rendering *p) {
+    atomic_store(&p->stopped, true);
+}
+
+picture_progress picture_look(const rendering *p) {
+    picture_progress look = {
+        .finished = atomic_load(&p->finished),
+        .total = (size_t)p->settings.width * (size_t)p->settings.height,
+        .unconverged = atomic_load(&p->unconverged),
+        .paths = atomic_load(&p->paths),
+    };
+    if (look.finished > 0)
+        look.error = (double)atomic_load(&p->error) / ERROR_UNITS / (double)look.finished;
+    return look;
+}
+
+image *picture_image(rendering *p) {
+    return p->film.image;
 }

@@ -108,10 +108,10 @@ static bool is_view_line(const char *line) {
 }
 
 /* Applies the view options of the line, passing over everything else; gives their number. */
-static int read_view_line(rad_view *view, char *line) {
+static int read_view_options(rad_view *view, const char *line) {
     enum { WORDS_MOST = 4 };
     int found = 0;
-    char *p = line;
+    const char *p = line;
     for (;;) {
         while (text_is_blank(*p))
             ++p;
@@ -123,7 +123,7 @@ static int read_view_line(rad_view *view, char *line) {
         const char *ends[WORDS_MOST];
         int count = 0;
         char *out = copy;
-        for (char *q = p; *q && count < WORDS_MOST;) {
+        for (const char *q = p; *q && count < WORDS_MOST;) {
             size_t length = strcspn(q, " \t\r\v\f");
             if (length >= 64)
                 break;
@@ -138,12 +138,16 @@ static int read_view_line(rad_view *view, char *line) {
         }
         int used = 0;
         if (count > 0 && *p == '-' && rad_view_option(view, count, words, &used, NULL, NULL) == GRAZE_OK && used > 0) {
-            p += ends[used - 1] - p;
+            p = ends[used - 1];
             ++found;
         } else {
             p += strcspn(p, " \t\r\v\f");
         }
     }
+}
+
+bool rad_view_read_line(rad_view *view, const char *line) {
+    return is_view_line(line) && read_view_options(view, line) > 0;
 }
 
 /* A header's next line, without its end; false at the header's or the file's end. */
@@ -165,14 +169,13 @@ graze_status rad_view_read(rad_view *view, const char *file, const graze_report 
         return report_file_error(report, NULL, "cannot open view file %s", file);
     char *line = NULL;
     size_t capacity = 0;
-    int found = 0;
+    bool found = false;
     while (next_line(in, &line, &capacity))
-        if (is_view_line(line))
-            found += read_view_line(view, line);
+        found = rad_view_read_line(view, line) || found;
     graze_status status = GRAZE_OK;
     if (ferror(in))
         status = report_file_error(report, NULL, "cannot read view file %s", file);
-    else if (found == 0)
+    else if (!found)
         status = report_error(report, NULL, "no view in %s", file);
     free(line);
     if (!is_standard_input)

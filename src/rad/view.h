@@ -26,6 +26,9 @@ rad_view rad_view_default(void);
  * words, or 0 where words[0] is no view option. */
 graze_status rad_view_option(rad_view *, int count, const char *const *words, int *used, const place *where,
                              const graze_report *);
+/* Takes the view options of a line as stands in view files and picture headers: one that begins with VIEW= or the name
+ * of a program that takes views. False where it has none. */
+bool rad_view_read_line(rad_view *, const char *line);
 /* -vf: the last view found in a view file or picture header. */
 graze_status rad_view_read(rad_view *, const char *file, const graze_report *);
 /* Checks the parameters and computes what rays need. Must come before the functions below. */

@@ -33,6 +33,8 @@ typedef struct half {
     bool integrated;    /* whether light was integrated in any sample */
     uint32_t taken;     /* of all replicates together */
     estimate_luck luck; /* the worst of any sample */
+    bool with_parts;
+    estimate_parts parts; /* sums */
 } half;
 
 static uint32_t replicate_count(const half *h, int i) {
@@ -127,8 +129,12 @@ static void summarize_evenly(const half halves[HALVES], graze_answer *answer) {
                halves);
 }
 
+static bool are_even(const half halves[HALVES]) {
+    return halves[0].taken < halves[1].taken + 2 && halves[1].taken <= halves[0].taken;
+}
+
 static void summarize(const half halves[HALVES], graze_answer *answer) {
-    if (halves[0].taken < halves[1].taken + 2 && halves[1].taken <= halves[0].taken)
+    if (are_even(halves))
         summarize_together(halves, answer);
     else
         summarize_evenly(halves, answer);
@@ -152,6 +158,10 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     }
     h->control_count = taken.control_count > h->control_count ? taken.control_count : h->control_count;
     h->integrated = h->integrated || taken.integrated;
+    if (h->with_parts) {
+        h->parts.indirect = rgb_add(h->parts.indirect, taken.indirect);
+        h->parts.albedo = rgb_add(h->parts.albedo, taken.albedo);
+    }
     h->luck = luck > h->luck ? luck : h->luck;
     h->taken++;
     return luck;
@@ -214,9 +224,21 @@ static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_
     }
 }
 
-void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
-              graze_answer *answer) {
-    half halves[HALVES] = {{.taken = 0}, {.taken = 0}};
+/* Controls are direct light, and change none of the parts. */
+static estimate_parts mean_parts(const half halves[HALVES]) {
+    estimate_parts mean = {{0, 0, 0}, {0, 0, 0}};
+    for (int i = 0; i < HALVES && halves[i].taken > 0; i++) {
+        const half *h = &halves[i];
+        double weight = are_even(halves) ? 1.0 / (halves[0].taken + halves[1].taken) : 0.5 / h->taken;
+        mean.indirect = rgb_add_scaled(mean.indirect, weight, h->parts.indirect);
+        mean.albedo = rgb_add_scaled(mean.albedo, weight, h->parts.albedo);
+    }
+    return mean;
+}
+
+void estimate_with_parts(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
+                         graze_answer *answer, estimate_parts *parts) {
+    half halves[HALVES] = {{.with_parts = parts != NULL}, {.with_parts = parts != NULL}};
     for (int i = 0; i < ESTIMATE_REPLICATES; i++)
         halves[i % HALVES].key[i / HALVES] = sampler_key(s->seed, stream, (uint32_t)i);
     *answer = (graze_answer){.converged = 1};
@@ -229,4 +251,11 @@ void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *s
     } else {
         answer->converged = refine(halves, s, sample, user, answer);
     }
+    if (parts)
+        *parts = mean_parts(halves);
+}
+
+void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
+              graze_answer *answer) {
+    estimate_with_parts(s, stream, sample, user, answer, NULL);
 }

@@ -30,4 +30,13 @@ typedef path_sample estimate_sample(void *user, sampler *, estimate_luck *luck);
 /* Takes samples until the settings' error or number of samples is reached. `stream` tells estimates apart. */
 void estimate(const graze_trace_settings *, uint64_t stream, estimate_sample *, void *user, graze_answer *);
 
+/* Means of what samples tell besides (trace/path.h), each sample counted as much as it is in the value. */
+typedef struct estimate_parts {
+    rgb indirect, albedo;
+} estimate_parts;
+
+/* As estimate, with the parts, too. */
+void estimate_with_parts(const graze_trace_settings *, uint64_t stream, estimate_sample *, void *user, graze_answer *,
+                         estimate_parts *);
+
 #endif

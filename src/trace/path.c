@@ -18,6 +18,8 @@ static void add_ambient_value(path *p, const vertex *v) {
     rgb reflected = rgb_multiply(v->ambient, p->context->settings->ambient_value);
     rgb found = rgb_multiply(p->throughput, reflected);
     p->radiance = rgb_add(p->radiance, found);
+    if (!p->scattered)
+        p->ambient_light = rgb_add(p->ambient_light, found);
     observe_surface(p, found);
 }
 
@@ -27,6 +29,7 @@ static void follow(path *p, vertex v) {
     light_choice lights;
     for (;;) {
         p->ambient_limit = v.no_ambient ? 0 : context->settings->ambient_bounces;
+        bool scattered = p->scattered;
         if (!path_bounces_left(p))
             add_ambient_value(p, &v);
         lobe_choice choice = lobes_choose(p, &v);
@@ -46,6 +49,8 @@ static void follow(path *p, vertex v) {
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         observe_ray(p, v.point, &hit, found);
+        if (!scattered)
+            p->direct = p->radiance;
         if (p->known.lights)
             known_light_subtract_reflected(p, &v, &hit, found);
         if (!vertex_at_hit(p, &hit, &v))
@@ -53,12 +58,13 @@ static void follow(path *p, vertex v) {
     }
 }
 
-/* Sets all but what is written before it is read: the last reflection, and controls beyond their number. */
+/* Sets all but what is written before it is read: the last reflection, what it found, and controls beyond their
+ * number. */
 static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->throughput = (rgb){1, 1, 1};
-    p->radiance = (rgb){0, 0, 0};
+    p->radiance = p->ambient_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
@@ -74,6 +80,9 @@ static path_sample path_end(const path *p, uint32_t first_group) {
     sample.noisy = p->sampler->group != first_group;
     sample.searching = p->searching;
     sample.integrated = p->integrated;
+    rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
+    sample.indirect = rgb_add(later, p->ambient_light);
+    sample.albedo = p->albedo;
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
     return sample;
@@ -86,8 +95,11 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     vertex v;
     if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
         p.radiance = emission_found(&p, first);
-    if (vertex_at_hit(&p, first, &v) && vertex_keep_part(&v, context->settings->part))
+    if (vertex_at_hit(&p, first, &v) && vertex_keep_part(&v, context->settings->part)) {
+        bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
+        p.albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
         follow(&p, v);
+    }
     return path_end(&p, first_group);
 }
 

@@ -19,6 +19,9 @@ enum { PATH_FIRST_CONTROLS = PATH_MEMORY_LIGHTS, PATH_CONTROLS = PATH_FIRST_CONT
 
 typedef struct path_sample {
     rgb radiance;
+    rgb indirect; /* the part of it that was reflected more than once, mirrors not counted before the first point that
+                     is none, or comes from the ambient value */
+    rgb albedo;   /* reflectance of what was hit first: diffuse and specular, as seen from there; 1 with -i */
     path_control controls[PATH_CONTROLS];
     int control_count; /* so many are set */
     bool noisy;        /* random numbers were drawn: another sample may differ */

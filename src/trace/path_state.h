@@ -41,6 +41,9 @@ typedef struct path {
     const path_context *context;
     sampler *sampler;
     rgb throughput, radiance;
+    rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
+    rgb albedo; /* of the first point */
+    rgb ambient_light; /* of the ambient value, before the path scattered */
     int ambient_depth; /* diffuse reflections so far */
     int ambient_limit; /* how many there may be at this vertex */
     int depth;         /* all reflections so far */

@@ -56,6 +56,6 @@ graze_status tool_check_scenes(const tool_arguments *arguments, bool input_taken
     for (int i = 0; i < arguments->operand_count; i++)
         inputs += strcmp(arguments->operands[i], "-") == 0;
     if (input_taken && inputs > 0)
-        return report_error(report, NULL, "the scene cannot be '-': rays come from standard input");
+        return report_error(report, NULL, "the scene cannot be '-': standard input is taken");
     return inputs > 1 ? report_error(report, NULL, "standard input can be only one of the scenes") : GRAZE_OK;
 }

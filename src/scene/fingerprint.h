@@ -1,0 +1,11 @@
+/* Telling scenes apart. */
+#ifndef SCENE_FINGERPRINT_H
+#define SCENE_FINGERPRINT_H
+
+#include "scene/scene.h"
+
+/* A number of all that the scene's descriptions say (names, types, modifiers, arguments, in their order), but not of
+ * where they say it. */
+uint64_t scene_fingerprint(const graze_scene *);
+
+#endif

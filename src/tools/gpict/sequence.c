@@ -1,0 +1,67 @@
+/* Views from standard input. */
+#include "tools/gpict/sequence.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/gpict/names.h"
+
+static graze_status check_names(const gpict_options *o, const graze_report *report) {
+    graze_status status = GRAZE_OK;
+    for (int i = 0; i < o->pictures.count && status == GRAZE_OK; i++)
+        status = name_check_frame(o->pictures.files[i], report);
+    if (status == GRAZE_OK && *o->contours)
+        status = name_check_frame(o->contours, report);
+    if (status == GRAZE_OK && *o->depth)
+        status = name_check_frame(o->depth, report);
+    return status;
+}
+
+/* One frame; the view becomes the previous one. */
+static graze_status render_view(job *j, int number, const rad_view *view, rad_view *previous) {
+    shot *f = NULL;
+    rad_view now = *view;
+    graze_status status = rad_view_prepare(&now, j->report);
+    if (status != GRAZE_OK)
+        return status;
+    status = shot_prepare(&f, j, number, view, previous);
+    if (f)
+        status = shot_render(f, j);
+    shot_destroy(f);
+    *previous = now;
+    return status;
+}
+
+static void cut_end(char *line) {
+    line[strcspn(line, "\r\n")] = 0;
+}
+
+static graze_status render_all(job *j, rad_view *view, rad_view *previous, char **line, size_t *size) {
+    graze_status worst = GRAZE_OK;
+    int number = j->options->first_frame;
+    while (!j->signal && worst < GRAZE_SYSTEM_ERROR && getline(line, size, stdin) > 0) {
+        cut_end(*line);
+        if (!rad_view_read_line(view, *line))
+            continue;
+        graze_status status = render_view(j, number++, view, previous);
+        worst = status > worst ? status : worst;
+    }
+    if (ferror(stdin))
+        worst = report_system_error(j->report, NULL, "cannot read standard input");
+    return worst;
+}
+
+graze_status sequence_render(job *j) {
+    rad_view view = j->options->view, previous = view;
+    char *line = NULL;
+    size_t size = 0;
+    graze_status status = check_names(j->options, j->report);
+    if (status == GRAZE_OK)
+        status = rad_view_prepare(&previous, j->report);
+    if (status == GRAZE_OK)
+        status = job_load(j);
+    if (status == GRAZE_OK)
+        status = render_all(j, &view, &previous, &line, &size);
+    free(line);
+    return status;
+}
