@@ -61,7 +61,7 @@ static place_of_box find_box(const shaft *s, const shaft_node *n, double *depth)
 }
 
 /* The first of a leaf's shapes that is in the way tells for all: where there are several, they are small. */
-static geometry_visibility meet_leaf(const shaft *s, const geometry *g, const shaft_node *leaf, int *budget) {
+static geometry_visibility meet_leaf(shaft *s, const geometry *g, const shaft_node *leaf, int *budget) {
     geometry_visibility found = GEOMETRY_CLEAR;
     for (uint32_t i = 0; i < leaf->count && found == GEOMETRY_CLEAR; i++)
         found = *budget > 0 ? shaft_meets_shape(s, g, g->sights.order[leaf->first + i], budget) : GEOMETRY_MIXED;
@@ -136,7 +136,8 @@ geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *s
 static bool shape_is_above(const geometry *g, int surface, vec3 point, vec3 normal, int from) {
     const shape *s = &g->shapes[surface];
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    return !s->shines && !(surface == from && flat) && shaft_reach_of(s, point, normal) > shaft_tolerance(g);
+    return !s->shines && !(surface == from && flat) &&
+           shaft_reach_of(s, point, normal) > shaft_tolerance(vec3_max_abs(point), g->reach[surface]);
 }
 
 bool geometry_reflects_above(const geometry *g, vec3 point, vec3 normal, int from) {

@@ -244,10 +244,12 @@ static geometry_visibility meet_ring(const shaft *s, const shape *ring, int surf
     return plane_is_beside(s, &plane) || body_is_beside(s, ring, surface) ? GEOMETRY_CLEAR : GEOMETRY_MIXED;
 }
 
-geometry_visibility shaft_meets_shape(const shaft *s, const geometry *g, int surface, int *budget) {
+geometry_visibility shaft_meets_shape(shaft *s, const geometry *g, int surface, int *budget) {
     const shape *body = &g->shapes[surface];
     bool left = surface == s->sight->from;
+    double light = s->sight->light < 0 ? 0 : g->reach[s->sight->light];
     *budget -= TEST_WORTH;
+    s->tolerance = shaft_tolerance(vec3_max_abs(s->sight->point), double_max(light, g->reach[surface]));
     if (surface == s->sight->light || (left && (body->kind == SHAPE_POLYGON || body->kind == SHAPE_RING)))
         return GEOMETRY_CLEAR;
     switch (body->kind) {

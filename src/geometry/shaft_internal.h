@@ -13,7 +13,7 @@
  * touched by the cone of rays to it: what it hides of that cone lies before the disk. */
 typedef struct shaft {
     const geometry_sight *sight;
-    double tolerance; /* shaft_tolerance() */
+    double tolerance; /* shaft_tolerance() of the light, and then of each surface with it */
     double near;      /* and these may coincide, by geometry.h */
     /* The light: a polygon of `corners`, cut off at the horizon, or a disk, which lies within the polygon. */
     vec3 corners[SHAFT_CORNERS];
@@ -45,15 +45,15 @@ typedef struct shaft_span {
     double low, high;
 } shaft_span;
 
-/* Surfaces no farther apart than this touch: the roundings of coordinates. */
-double shaft_tolerance(const geometry *);
+/* What is no farther apart than this touches, of points and surfaces with such largest coordinates: their roundings. */
+double shaft_tolerance(double point, double surface);
 
 /* The reach of the light along a vector: of products with it. */
 shaft_span shaft_light_span(const shaft *, vec3 along);
 
 /* What a shape does to the shaft: CLEAR: it leaves all rays pass, BLOCKED: it stops all. Subtracts from `budget` about
  * as many tests as that took. */
-geometry_visibility shaft_meets_shape(const shaft *, const geometry *, int surface, int *budget);
+geometry_visibility shaft_meets_shape(shaft *, const geometry *, int surface, int *budget);
 
 /* How far a shape reaches along a unit vector, from a point. */
 double shaft_reach_of(const shape *, vec3 point, vec3 along);

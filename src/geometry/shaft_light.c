@@ -11,8 +11,8 @@
 /* Below this sine between the rays to two corners, the plane through them is not known well enough. */
 #define LEAST_SINE 1e-9
 
-double shaft_tolerance(const geometry *g) {
-    return 8 * DBL_EPSILON * (vec3_max_abs(g->center) + g->radius);
+double shaft_tolerance(double point, double surface) {
+    return 8 * DBL_EPSILON * (point + surface);
 }
 
 shaft_span shaft_light_span(const shaft *s, vec3 along) {
@@ -176,8 +176,12 @@ static shaft_kind light_shaft(shaft *s, const geometry *g) {
 
 shaft_kind shaft_make(shaft *s, const geometry *g, const geometry_sight *sight) {
     s->sight = sight;
-    s->tolerance = shaft_tolerance(g);
-    s->near = geometry_coincidence(g->largest_reach, vec3_max_abs(sight->point));
+    double size = vec3_max_abs(sight->point);
+    s->tolerance = shaft_tolerance(size, sight->light < 0 ? 0 : g->reach[sight->light]);
+    s->near = geometry_coincidence(g->largest_reach, size);
+    /* Rays that leave no surface do not hit what is that close. */
+    if (sight->from < 0)
+        s->near += GEOMETRY_FTINY * double_min(1, size);
     s->round = false;
     s->ball_radius = 0;
     s->corner_count = s->side_count = 0;

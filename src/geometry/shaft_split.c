@@ -46,7 +46,7 @@ static void sort_along(entry *entries, size_t count, int axis) {
 
 /* The best place to split entries in this order. */
 static size_t best_place(const entry *entries, size_t count, double *cost) {
-    double above[SHAFT_SPLIT_MOST];
+    double above[SHAFT_SPLIT_MOST] = {0};
     bounds box = entries[count - 1].box;
     size_t best = 0;
     for (size_t i = count - 1; i > 0; i--) {

@@ -56,9 +56,10 @@ static path_memory_light look_at(const path *p, const vertex *v, int index, bool
     found.integrated = found.seen != GEOMETRY_BLOCKED &&
                        unshadowed_light_at(scene, &v->shading, v->point, index, glossy, &found.whole);
     found.times_mixed += found.seen == GEOMETRY_MIXED;
+    if (!kept)
+        return found;
     found.kept = p->context->memory->alike;
-    if (kept)
-        *kept = found;
+    *kept = found;
     return found;
 }
 

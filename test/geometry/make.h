@@ -93,7 +93,7 @@ static inline shape make_shape(rad_type type, uint32_t count, const double *real
 }
 
 static inline shape make_polygon(uint32_t count, const vec3 *vertices) {
-    double *reals = malloc(3 * count * sizeof *reals);
+    double *reals = calloc(3 * (size_t)count + 1, sizeof *reals);
     assert_non_null(reals);
     for (uint32_t i = 0; i < count; i++) {
         reals[3 * i] = vertices[i].x;
