@@ -12,15 +12,16 @@
  * radiance for a radiance of 1: the integral of value x l.z over the directions l of the light, 0 .. 1.
  *
  *   error                    relative  at least  measured, relative
- *   graze_brdf_polygon       1e-8      1e-14     2e-9
- *   graze_brdf_ellipse       1e-6      1e-11     2e-7
+ *   graze_brdf_polygon       1e-8      1e-14     3e-9
+ *   graze_brdf_ellipse       1e-8      1e-14     4e-9
  *   graze_diffuse_polygon    1e-14     1e-14     1e-15
- *   graze_diffuse_ellipse    1e-9      1e-11     1e-10
+ *   graze_diffuse_ellipse    1e-9      1e-14     2e-11
  *
- * as tested; for the lobe, 4e-16/(roughness v.z) more, since so much does a unit vector's rounding matter; and these
- * for v.z of 1e-6 or more. Where the surface point lies on the outline or next to it (by less than 1e-6 of
- * its size), only that they are in 0 .. 1. Results are 0 for v below the surface, for fewer than three corners, and for
- * what is not finite. */
+ * as tested; for the lobe, 4e-16/(roughness v.z) more, since so much does a unit vector's rounding matter, and at least
+ * 1e-12 for a light that passes by the lobe on two sides; and these for v.z of 1e-6 or more. Where the surface point
+ * lies on the outline or next to it (by less than 1e-6 of its size), only that they are in 0 .. 1. Results are 0 for v
+ * below the surface, for fewer than three corners, and for what is not finite. A ring is the difference of two disks,
+ * with both their errors. */
 #ifndef GRAZE_BRDF_LIGHT_H
 #define GRAZE_BRDF_LIGHT_H
 
@@ -35,7 +36,8 @@ extern "C" {
 #endif
 
 /* The new model's lobe; the model that the brdf names does not matter. The polygon is plane and may be concave; a seam
- * to a hole and back, as in Radiance's polygons, is let pass. Some tenths of a microsecond for four corners. */
+ * to a hole and back, as in Radiance's polygons, is let pass. A third of a microsecond for four corners where the light
+ * is smaller than the lobe or misses it, two where it is much larger. */
 GRAZE_API double graze_brdf_polygon(const graze_brdf *brdf, const graze_vec3 *corners, size_t count, graze_vec3 v);
 
 /* The same for the ellipse center + cos(t) first + sin(t) second: a disk with two radii at right angles, or the outline

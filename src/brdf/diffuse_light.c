@@ -3,71 +3,81 @@
 #include <stdbool.h>
 
 #include "brdf/constants.h"
+#include "brdf/gauss.h"
 #include "brdf/outline.h"
 #include "graze/brdf_light.h"
 
-/* Gauss's points do for so long a piece of an arc, in radians; and so much longer may one of its halves be. */
-static const double longest_piece = .7, shortest_uneven_piece = .07, uneven = 2;
-static const int deepest = 10; /* times a piece is cut in two */
+/* Sixteen of Gauss's points do for an arc that turns by so much, squared, in radians. */
+static const double longest_turn = .4;
 
-/* For a straight arc the angle that it spans times the height of the normal of its plane. */
-static void add_straight(void *context, const brdf_arc *arc, double from, double to) {
+/* An arc is cut in halves no more often than so. */
+static const int deepest = 20;
+
+/* The angle that an edge spans times the height of the normal of its plane. */
+static void add_edge(void *context, graze_vec3 p, graze_vec3 q) {
     double *sum = context;
-    graze_vec3 p = brdf_arc_at(arc, from), q = brdf_arc_at(arc, to);
     graze_vec3 n = {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
     double sine = sqrt(n.x * n.x + n.y * n.y + n.z * n.z), cosine = p.x * q.x + p.y * q.y + p.z * q.z;
     if (sine > 0)
         *sum += n.z / sine * atan2(sine, cosine);
 }
 
+static graze_vec3 arc_at(const brdf_arc *arc, double u) {
+    double s = 1 - u, begin = s * s, middle = 2 * u * s, end = u * u;
+    const graze_vec3 *c = arc->c;
+    return (graze_vec3){begin * c[0].x + middle * c[1].x + end * c[2].x,
+                        begin * c[0].y + middle * c[1].y + end * c[2].y,
+                        begin * c[0].z + middle * c[1].z + end * c[2].z};
+}
+
+/* Of x and y. */
+static graze_vec3 arc_derivative(const brdf_arc *arc, double u) {
+    double s = 1 - u;
+    const graze_vec3 *c = arc->c;
+    return (graze_vec3){.x = 2 * (s * (c[1].x - c[0].x) + u * (c[2].x - c[1].x)),
+                        .y = 2 * (s * (c[1].y - c[0].y) + u * (c[2].y - c[1].y))};
+}
+
 /* The same in quadrature, by Gauss's points: the height of e x de/|e|^2. */
-static double height_along_arc(const brdf_arc *arc, double from, double to) {
+static double height_along_arc(const brdf_arc *arc) {
+    enum { POINTS = 16 };
+    const double *points = &brdf_gauss_points[brdf_gauss_rule(POINTS)];
+    const double *weights = &brdf_gauss_weights[brdf_gauss_rule(POINTS)];
     double sum = 0;
-    for (int i = 0; i < BRDF_GAUSS_POINTS; ++i) {
-        double u = from + (to - from) * brdf_gauss_points[i];
-        graze_vec3 e = brdf_arc_at(arc, u), d = brdf_arc_derivative(arc, u);
-        sum += brdf_gauss_weights[i] * (e.x * d.y - e.y * d.x) / (e.x * e.x + e.y * e.y + e.z * e.z);
+    for (int i = 0; i < POINTS; ++i) {
+        graze_vec3 e = arc_at(arc, points[i]), d = arc_derivative(arc, points[i]);
+        sum += weights[i] * (e.x * d.y - e.y * d.x) / (e.x * e.x + e.y * e.y + e.z * e.z);
     }
-    return (to - from) * sum;
+    return sum;
 }
 
-static double angle_between(graze_vec3 p, graze_vec3 q) {
-    double x = p.y * q.z - p.z * q.y, y = p.z * q.x - p.x * q.z, z = p.x * q.y - p.y * q.x;
-    return atan2(sqrt(x * x + y * y + z * z), p.x * q.x + p.y * q.y + p.z * q.z);
+static double integrate(const brdf_arc *arc, int depth) {
+    if (depth >= deepest || !(brdf_turn_of_arc(arc) > longest_turn))
+        return height_along_arc(arc);
+    brdf_arc first, second;
+    brdf_halve_arc(arc, &first, &second);
+    return integrate(&first, depth + 1) + integrate(&second, depth + 1);
 }
 
-static double integrate(const brdf_arc *arc, double from, double to, int depth) {
-    double half = (from + to) / 2;
-    graze_vec3 p = brdf_arc_at(arc, from), middle = brdf_arc_at(arc, half), q = brdf_arc_at(arc, to);
-    double first = angle_between(p, middle), second = angle_between(middle, q), length = first + second;
-    bool is_uneven = fmax(first, second) > uneven * fmin(first, second);
-    if (depth < deepest && (length > longest_piece || (is_uneven && length > shortest_uneven_piece)))
-        return integrate(arc, from, half, depth + 1) + integrate(arc, half, to, depth + 1);
-    return height_along_arc(arc, from, to);
-}
-
-static void add_any(void *context, const brdf_arc *arc, double from, double to) {
+static void add_arc(void *context, const brdf_arc *arc) {
     double *sum = context;
-    bool is_straight = arc->quadratic.x == 0 && arc->quadratic.y == 0 && arc->quadratic.z == 0;
-    if (is_straight)
-        add_straight(context, arc, from, to);
-    else
-        *sum += integrate(arc, from, to, 0);
+    *sum += integrate(arc, 0);
 }
 
-static double reflect(const brdf_outline *outline, brdf_arc_visitor *add) {
-    double sum = 0;
-    brdf_outline_visit(outline, add, &sum);
+static double reflected(double sum) {
     double result = fabs(sum) / (2 * brdf_pi);
     return result > 0 ? fmin(result, 1) : 0;
 }
 
 double graze_diffuse_polygon(const graze_vec3 *corners, size_t count) {
-    const brdf_outline outline = {.corners = corners, .count = count};
-    return count < 3 ? 0 : reflect(&outline, add_straight);
+    double sum = 0;
+    if (count >= 3)
+        brdf_outline_of_polygon(corners, count, &(brdf_outline_visitor){add_edge, add_arc, &sum});
+    return reflected(sum);
 }
 
 double graze_diffuse_ellipse(graze_vec3 center, graze_vec3 first, graze_vec3 second) {
-    const brdf_outline outline = {.center = center, .first = first, .second = second};
-    return reflect(&outline, add_any);
+    double sum = 0;
+    brdf_outline_of_ellipse(center, first, second, &(brdf_outline_visitor){add_edge, add_arc, &sum});
+    return reflected(sum);
 }

@@ -1,4 +1,4 @@
-/* The field's integral along an arc: to be compiled once for each instruction set. */
+/* The field's integral along parts of an outline: to be compiled once for each instruction set. */
 #ifndef BRDF_FIELD_LOOPS_H
 #define BRDF_FIELD_LOOPS_H
 
@@ -6,26 +6,26 @@
 
 #include "brdf/constants.h"
 #include "brdf/elementary.h"
+#include "brdf/gauss.h"
 #include "brdf/lobe_field.h"
-#include "brdf/outline.h"
 
-/* exp(x) for x <= 0 to 1e-12; less than e^-60 is e^-60. */
+/* exp(x) for x <= 0 to 1.1e-12; less than e^-60 is e^-60. A polynomial through Chebyshev's points. */
 BRDF_INLINE double field_exp(double x) {
     const double log2_e = 0x1.71547652b82fep+0, round_to_integer = 0x1.8p52;
     x = x > -60 ? x : -60;
     double shifted = x * log2_e + round_to_integer, n = shifted - round_to_integer;
     double r = (x - n * brdf_ln2_hi) - n * brdf_ln2_lo, r2 = r * r, r4 = r2 * r2;
-    double low = (1 + r) + r2 * (.5 + r * (1. / 6));
-    double high = (1. / 24 + r * (1. / 120)) + r2 * (1. / 720 + r * (1. / 5040));
-    double highest = 1. / 40320 + r * (1. / 362880) + r2 * (1. / 3628800);
-    return (low + r4 * (high + r4 * highest)) * brdf_from_bits((brdf_bits(shifted) + 1023) << 52);
+    double low = (1 + r * 0x1.ffffffffd382fp-1) + r2 * (0x1.fffffffff71b2p-2 + r * 0x1.555555a279c87p-3);
+    double high =
+        (0x1.555555742d965p-5 + r * 0x1.1110809f385f6p-7) + r2 * (0x1.6c164de86dafdp-10 + r * 0x1.a1aa939e677aep-13);
+    return (low + r4 * (high + r4 * 0x1.a15a600528a0fp-16)) * brdf_from_bits((brdf_bits(shifted) + 1023) << 52);
 }
 
-/* exp(y^2) erfc(y) for y >= 0 to 2e-12; beyond 7.5, where exp(-y^2) makes it nothing, that of 7.5. A polynomial in
- * s = 1.4 (y - 3)/(y + 3) + 0.4, which goes from -1 to 1, through Chebyshev's points. */
-BRDF_INLINE double field_erfcx(double y) {
-    y = y < 7.5 ? y : 7.5;
-    double s = 1.4 * ((y - 3) / (y + 3)) + .4, s2 = s * s, s4 = s2 * s2;
+/* exp(y^2) erfc(y) for y >= 0 to 2e-12, where s = 1.4 (y - 3)/(y + 3) + 0.4 goes from -1 to 1; beyond, for y > 7.5
+ * where exp(-y^2) makes it nothing, that of 7.5. A polynomial through Chebyshev's points. */
+BRDF_INLINE double field_erfcx(double s) {
+    s = s < 1 ? s : 1;
+    double s2 = s * s, s4 = s2 * s2;
     double low =
         (0x1.2f65fc060f7b1p-2 + s * -0x1.75ad2bb78e46cp-2) + s2 * (0x1.b21b951b6d18cp-3 + s * -0x1.7ab1172a94605p-4);
     double middle =
@@ -36,38 +36,92 @@ BRDF_INLINE double field_erfcx(double y) {
     return low + s4 * (middle + s4 * (high + s4 * highest));
 }
 
-BRDF_INLINE double field_at(const brdf_lobe_field *f, double a, double b) {
-    const double half_root_pi = 0x1.c5bf891b4ef6bp-1;
-    const brdf_slope_plane *p = &f->plane;
-    double along = field_exp(-a * a), g = field_exp(-a * a - b * b), side = b < 0 ? -1 : 1, r = 1 / (1 + p->lean * a);
-    double whole = half_root_pi * ((side - f->base) * along - side * (g * field_erfcx(fabs(b))));
-    return (2 - (1 + p->aa * a * a) * r) * whole + p->ab * a * r * g - p->bb * r * (.5 * (whole - b * g));
+/* Numbers at Gauss's points: A, B, C, and A'C - AC' times the weight. */
+enum { FIELD_POINTS = BRDF_MOST_PIECES * BRDF_MOST_GAUSS_POINTS };
+typedef struct field_points {
+    double a[FIELD_POINTS], b[FIELD_POINTS], c[FIELD_POINTS], change[FIELD_POINTS];
+} field_points;
+
+BRDF_INLINE double polynomial_at(const double *p, double u) {
+    return p[0] + u * (p[1] + u * p[2]);
 }
 
-/* The integral of A da from u = `from` to `to` by Gauss's eight points. With e the arc's point and |e| its distance,
- * the half vector's slope is (e + |e| v)/(e.z + |e| v.z). */
-static double field_along_arc(const brdf_lobe_field *f, const brdf_arc *arc, double from, double to) {
-    double a[BRDF_GAUSS_POINTS], b[BRDF_GAUSS_POINTS], change[BRDF_GAUSS_POINTS], part[BRDF_GAUSS_POINTS];
-    graze_vec3 v = f->v;
-    for (int i = 0; i < BRDF_GAUSS_POINTS; ++i) {
-        double u = from + (to - from) * brdf_gauss_points[i];
-        graze_vec3 e = brdf_arc_at(arc, u), d = brdf_arc_derivative(arc, u);
-        double distance = sqrt(e.x * e.x + e.y * e.y + e.z * e.z);
-        double d_distance = (e.x * d.x + e.y * d.y + e.z * d.z) / distance;
-        double per_height = 1 / (e.z + distance * v.z), d_height = d.z + d_distance * v.z;
-        double x = (e.x + distance * v.x) * per_height, y = (e.y + distance * v.y) * per_height;
-        double dx = (d.x + d_distance * v.x - x * d_height) * per_height;
-        double dy = (d.y + d_distance * v.y - y * d_height) * per_height;
-        a[i] = f->a_of_x * x + f->a_of_y * y;
-        b[i] = f->b_of_x * x + f->b_of_y * y;
-        change[i] = f->a_of_x * dx + f->a_of_y * dy;
+BRDF_INLINE double polynomial_derivative(const double *p, double u) {
+    return p[1] + 2 * u * p[2];
+}
+
+BRDF_INLINE void put_edge(const brdf_piece *piece, const double *u, const double *weight, double *restrict a,
+                          double *restrict b, double *restrict c, double *restrict change) {
+    const brdf_piece p = *piece;
+    for (int i = 0; i < p.points; ++i) {
+        a[i] = polynomial_at(p.polynomials[0], u[i]);
+        b[i] = polynomial_at(p.polynomials[1], u[i]);
+        c[i] = polynomial_at(p.polynomials[2], u[i]);
+        change[i] = weight[i] * polynomial_at(p.polynomials[3], u[i]);
     }
-    for (int i = 0; i < BRDF_GAUSS_POINTS; ++i)
-        part[i] = brdf_gauss_weights[i] * field_at(f, a[i], b[i]) * change[i];
-    double sum = 0;
-    for (int i = 0; i < BRDF_GAUSS_POINTS; ++i)
-        sum += part[i];
-    return (to - from) * sum;
+}
+
+BRDF_INLINE void put_arc(const brdf_lobe_field *f, const brdf_piece *piece, const double *u, const double *weight,
+                         double *restrict a, double *restrict b, double *restrict c, double *restrict change) {
+    const brdf_piece p = *piece;
+    for (int i = 0; i < p.points; ++i) {
+        double x = polynomial_at(p.polynomials[0], u[i]), dx = polynomial_derivative(p.polynomials[0], u[i]);
+        double y = polynomial_at(p.polynomials[1], u[i]), dy = polynomial_derivative(p.polynomials[1], u[i]);
+        double z = polynomial_at(p.polynomials[2], u[i]), dz = polynomial_derivative(p.polynomials[2], u[i]);
+        double d = sqrt(x * x + y * y + z * z), dd = (x * dx + y * dy + z * dz) / d;
+        a[i] = f->a_of_x * x + f->a_of_y * y + f->a_of_d * d;
+        b[i] = f->b_of_x * x + f->b_of_y * y + f->b_of_d * d;
+        c[i] = z + f->c_of_d * d;
+        double da = f->a_of_x * dx + f->a_of_y * dy + f->a_of_d * dd, dc = dz + f->c_of_d * dd;
+        change[i] = weight[i] * (da * c[i] - a[i] * dc);
+    }
+}
+
+/* F times the change of a. One division does for all. */
+BRDF_INLINE double field_at(const brdf_lobe_field *f, double numerator_a, double numerator_b, double c, double change) {
+    const double half_root_pi = 0x1.c5bf891b4ef6bp-1;
+    double divisor = c + f->lean * numerator_a, distant = fabs(numerator_b) + 3 * c, nearer = c * distant;
+    double inverse = 1 / (nearer * divisor), per_c = inverse * (distant * divisor), r = c * (inverse * nearer);
+    double a = numerator_a * per_c, b = f->side * numerator_b * per_c;
+    double s = 1.4 * ((fabs(numerator_b) - 3 * c) * (inverse * (c * divisor))) + .4;
+    double along = field_exp(-a * a), g = field_exp(-a * a - b * b), tail = g * field_erfcx(s);
+    double whole = -half_root_pi * (b < 0 ? 2 * along - tail : tail);
+    double field =
+        (2 - (1 + f->aa * a * a) * r) * whole + f->side * f->ab * a * r * g - f->bb * r * (.5 * (whole - b * g));
+    return field * (change * (per_c * per_c));
+}
+
+/* Points that add nothing, up to a multiple of `lanes`. */
+static int fill_up(field_points *points, int used, int lanes) {
+    for (; used % lanes != 0; ++used) {
+        points->a[used] = points->b[used] = points->change[used] = 0;
+        points->c[used] = 1;
+    }
+    return used;
+}
+
+/* In eight sums, whatever the instruction set. */
+static double field_along_pieces(const brdf_lobe_field *field, const brdf_piece *pieces, int count) {
+    enum { LANES = 8 };
+    field_points points;
+    int used = 0;
+    for (int i = 0; i < count; ++i) {
+        const double *u = &brdf_gauss_points[brdf_gauss_rule(pieces[i].points)];
+        const double *weight = &brdf_gauss_weights[brdf_gauss_rule(pieces[i].points)];
+        double *a = &points.a[used], *b = &points.b[used], *c = &points.c[used], *change = &points.change[used];
+        if (pieces[i].is_edge)
+            put_edge(&pieces[i], u, weight, a, b, c, change);
+        else
+            put_arc(field, &pieces[i], u, weight, a, b, c, change);
+        used += pieces[i].points;
+    }
+    used = fill_up(&points, used, LANES);
+    double sums[LANES] = {0};
+    const brdf_lobe_field f = *field;
+    for (int i = 0; i < used; i += LANES)
+        for (int k = 0; k < LANES; ++k)
+            sums[k] += field_at(&f, points.a[i + k], points.b[i + k], points.c[i + k], points.change[i + k]);
+    return ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
 }
 
 #endif

@@ -27,5 +27,5 @@ const brdf_kernels BRDF_TABLE = {
     .sample_pair_batch = sample_pair_batch,
     .widen = widen,
     .narrow = narrow,
-    .field_along_arc = field_along_arc,
+    .field_along_pieces = field_along_pieces,
 };

@@ -11,8 +11,11 @@
  * - out_of_range.c, out_of_range_mean_weight.c: the pairs that the kernels leave alone, one at a time; powers of two
  *   are taken out, and the same arithmetic serves.
  *
- * Integrals (albedo*.c, mean_albedo.c, over the slopes of slope_plane.c, by the rule of quadrature.c) and the diffuse
- * term (diffuse.c) are plain C and libm. */
+ * Whole lights (lobe_light.c) are integrals along outlines (outline.c), in parts (lobe_part.c), of a field
+ * (lobe_field.h) that the table has as well: field_loops.h, by the rules of gauss.h.
+ *
+ * Integrals over all directions (albedo*.c, mean_albedo.c, over the slopes of slope_plane.c, by the rule of
+ * quadrature.c) and the diffuse term (diffuse.c) are plain C and libm. */
 #ifndef BRDF_KERNELS_H
 #define BRDF_KERNELS_H
 
@@ -21,7 +24,6 @@
 
 #include "brdf/blocks.h"
 #include "brdf/lobe_field.h"
-#include "brdf/outline.h"
 #include "graze/brdf.h"
 #include "graze/brdf_batch.h"
 
@@ -43,8 +45,8 @@ typedef void brdf_sample_pair_batch_function(const graze_brdf *, size_t, graze_v
 typedef void brdf_widen_function(brdf_block *to, const float *const *from, int arrays, size_t start, size_t length);
 typedef void brdf_narrow_function(float *const *to, const brdf_block *from, int arrays, size_t start, size_t length);
 
-/* Part of an integral along an outline; lobe_field.h has what it is of. */
-typedef double brdf_field_along_arc_function(const brdf_lobe_field *, const brdf_arc *, double from, double to);
+/* Part of an integral along an outline, BRDF_MOST_PIECES of it at most; lobe_field.h has what it is of. */
+typedef double brdf_field_along_pieces_function(const brdf_lobe_field *, const brdf_piece *, int count);
 
 /* Functions of brdf.h and brdf_batch.h, compiled for one instruction set. All tables give the same bits. */
 typedef struct brdf_kernels {
@@ -58,7 +60,7 @@ typedef struct brdf_kernels {
     brdf_sample_pair_batch_function *sample_pair_batch;
     brdf_widen_function *widen;
     brdf_narrow_function *narrow;
-    brdf_field_along_arc_function *field_along_arc;
+    brdf_field_along_pieces_function *field_along_pieces;
 } brdf_kernels;
 
 extern const brdf_kernels brdf_kernels_baseline;

@@ -1,101 +1,132 @@
 /* Cutting outlines at the horizon. */
 #include "brdf/outline.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
+#include "brdf/arithmetic.h"
+
+static graze_vec3 sum(double s, graze_vec3 a, double t, graze_vec3 b) {
+    return (graze_vec3){s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
+}
+
+static graze_vec3 middle_of(graze_vec3 a, graze_vec3 b) {
+    return sum(.5, a, .5, b);
+}
+
+graze_vec3 brdf_middle_of_arc(const brdf_arc *arc) {
+    return middle_of(middle_of(arc->c[0], arc->c[1]), middle_of(arc->c[1], arc->c[2]));
+}
+
+/* De Casteljau's halves. */
+void brdf_halve_arc(const brdf_arc *arc, brdf_arc *first, brdf_arc *second) {
+    const graze_vec3 *c = arc->c;
+    graze_vec3 begin = middle_of(c[0], c[1]), end = middle_of(c[1], c[2]), middle = middle_of(begin, end);
+    *first = (brdf_arc){{c[0], begin, middle}};
+    *second = (brdf_arc){{middle, end, c[2]}};
+}
+
+static double dot(graze_vec3 a, graze_vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static double square_of_product(graze_vec3 a, graze_vec3 b) {
+    graze_vec3 n = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return dot(n, n);
+}
+
+double brdf_turn_of_arc(const brdf_arc *arc) {
+    const graze_vec3 *c = arc->c;
+    if (dot(c[0], c[1]) < 0 || dot(c[1], c[2]) < 0 || dot(c[0], c[2]) < 0)
+        return DBL_MAX;
+    graze_vec3 middle = brdf_middle_of_arc(arc), bend = sum(1, sum(1, c[0], -2, c[1]), 1, c[2]);
+    double square = fmin(dot(middle, middle), fmin(dot(c[0], c[0]), dot(c[2], c[2])));
+    double speed = fmax(square_of_product(c[0], c[1]), square_of_product(c[1], c[2])) / (square * square);
+    return 4 * speed + sqrt(square_of_product(middle, bend)) / square;
+}
+
+static graze_vec3 normalize(graze_vec3 e) {
+    double per_distance = 1 / sqrt(e.x * e.x + e.y * e.y + e.z * e.z);
+    return (graze_vec3){e.x * per_distance, e.y * per_distance, e.z * per_distance};
+}
+
+/* Where the line between two points, one of them not above the surface, crosses the horizon. */
+static graze_vec3 crossing(graze_vec3 above, graze_vec3 below) {
+    graze_vec3 e = sum(-below.z, above, above.z, below);
+    e.z = 0;
+    return e;
+}
+
+/* A chain of edges as it grows. */
 typedef struct chain {
-    brdf_arc_visitor *visit;
-    void *context;
-    bool begun;  /* something was above the surface */
-    bool late;   /* ... but not all before it */
-    bool broken; /* what follows does not join what was visited last */
-    graze_vec3 start, end;
+    const brdf_outline_visitor *visitor;
+    bool begun;
+    graze_vec3 first, last;
 } chain;
 
-static brdf_arc straight(graze_vec3 from, graze_vec3 to) {
-    return (brdf_arc){from, {to.x - from.x, to.y - from.y, to.z - from.z}, {0, 0, 0}};
-}
-
-static void join(const chain *c, graze_vec3 to) {
-    brdf_arc horizon = straight(c->end, to);
-    c->visit(c->context, &horizon, 0, 1);
-}
-
-static void add(chain *c, const brdf_arc *arc, double from, double to) {
-    graze_vec3 start = brdf_arc_at(arc, from);
-    if (!c->begun) {
-        c->start = start;
-        c->late = c->broken;
-    } else if (c->broken) {
-        join(c, start);
-    }
-    c->visit(c->context, arc, from, to);
-    c->end = brdf_arc_at(arc, to);
+static void add_corner(chain *c, graze_vec3 corner) {
+    graze_vec3 e = normalize(corner);
+    if (c->begun)
+        c->visitor->edge(c->visitor->context, c->last, e);
+    else
+        c->first = e;
     c->begun = true;
-    c->broken = false;
+    c->last = e;
 }
 
-/* The u in (0, 1) where the arc crosses the horizon, in order. */
-static int find_crossings(const brdf_arc *arc, double u[2]) {
-    double a = arc->quadratic.z, half = arc->linear.z / 2, c = arc->constant.z, square = half * half - a * c;
-    if (!(square > 0))
-        return 0;
-    double sum = -(half + copysign(sqrt(square), half)), roots[2] = {sum / a, c / sum};
-    if (roots[0] > roots[1]) {
-        double larger = roots[0];
-        roots[0] = roots[1];
-        roots[1] = larger;
+/* Corners that are above, and crossings; two crossings on end are joined along the horizon. */
+void brdf_outline_of_polygon(const graze_vec3 *corners, size_t count, const brdf_outline_visitor *visitor) {
+    chain c = {.visitor = visitor};
+    graze_vec3 before = corners[count - 1];
+    for (size_t i = 0; i < count; ++i) {
+        graze_vec3 corner = corners[i];
+        bool above = corner.z > 0, was_above = before.z > 0;
+        if (above != was_above)
+            add_corner(&c, above ? crossing(corner, before) : crossing(before, corner));
+        if (above)
+            add_corner(&c, corner);
+        before = corner;
     }
-    int count = 0;
-    for (int i = 0; i < 2; ++i)
-        if (roots[i] > 0 && roots[i] < 1)
-            u[count++] = roots[i];
-    return count;
+    if (c.begun)
+        visitor->edge(visitor->context, c.last, c.first);
 }
 
-static void add_above(chain *c, const brdf_arc *arc) {
-    double crossings[2];
-    int count = find_crossings(arc, crossings);
-    for (int i = 0; i <= count; ++i) {
-        double from = i > 0 ? crossings[i - 1] : 0, to = i < count ? crossings[i] : 1;
-        if (brdf_arc_at(arc, (from + to) / 2).z > 0)
-            add(c, arc, from, to);
-        else
-            c->broken = true;
+/* Sines and cosines of angle and half of it, for angles in 0 .. pi. */
+typedef struct angle {
+    double cosine, sine;
+} angle;
+
+static angle half_of(double cosine) {
+    return (angle){sqrt((1 + cosine) / 2), sqrt((1 - cosine) / 2)};
+}
+
+/* With h the angle from the ellipse's highest point to the horizon, or pi, arcs are h/2 long, about -3/4 h, -1/4 h,
+ * 1/4 h, 3/4 h. */
+void brdf_outline_of_ellipse(graze_vec3 center, graze_vec3 first, graze_vec3 second,
+                             const brdf_outline_visitor *visitor) {
+    double rise = sqrt(first.z * first.z + second.z * second.z);
+    if (!(center.z + rise > 0))
+        return;
+    bool whole = center.z >= rise;
+    double cosine = rise > 0 ? first.z / rise : 1, sine = rise > 0 ? second.z / rise : 0;
+    graze_vec3 up = sum(cosine, first, sine, second), aside = sum(cosine, second, -sine, first);
+    angle half = half_of(whole ? -1 : -center.z / rise), quarter = half_of(half.cosine);
+    angle beyond = {half.cosine * quarter.cosine - half.sine * quarter.sine,
+                    half.sine * quarter.cosine + half.cosine * quarter.sine};
+    angle end = {half.cosine * half.cosine - half.sine * half.sine, 2 * half.sine * half.cosine};
+    const angle middles[] = {{beyond.cosine, -beyond.sine}, {quarter.cosine, -quarter.sine}, quarter, beyond};
+    const angle ends[] = {{end.cosine, -end.sine}, {half.cosine, -half.sine}, {1, 0}, half, end};
+    enum { ARCS = 4 };
+    graze_vec3 corners[ARCS + 1];
+    for (int i = 0; i <= ARCS; ++i)
+        corners[i] = sum(1, center, 1, sum(ends[i].cosine, up, ends[i].sine, aside));
+    if (!whole)
+        corners[0].z = corners[ARCS].z = 0;
+    for (int i = 0; i < ARCS; ++i) {
+        graze_vec3 middle = sum(quarter.cosine, center, 1, sum(middles[i].cosine, up, middles[i].sine, aside));
+        visitor->arc(visitor->context, &(brdf_arc){{corners[i], middle, corners[i + 1]}});
     }
-}
-
-/* The quarter of the ellipse about angle t, by u = (1 + tan(angle from t, halved)/tan(pi/8))/2: with w that tangent,
- * the point is (1 + w^2) center + (1 - w^2) toward + 2 w aside, over 1 + w^2. */
-static brdf_arc quarter_of_ellipse(const brdf_outline *o, int quarter) {
-    static const double tangent = 0x1.a827999fcef32p-2; /* of pi/8 */
-    static const double sines[] = {0, 1, 0, -1, 0};
-    double cosine = sines[quarter + 1], sine = sines[quarter];
-    graze_vec3 toward = {cosine * o->first.x + sine * o->second.x, cosine * o->first.y + sine * o->second.y,
-                         cosine * o->first.z + sine * o->second.z};
-    graze_vec3 aside = {cosine * o->second.x - sine * o->first.x, cosine * o->second.y - sine * o->first.y,
-                        cosine * o->second.z - sine * o->first.z};
-    double t = tangent, t2 = tangent * tangent;
-    graze_vec3 plus = {o->center.x + toward.x, o->center.y + toward.y, o->center.z + toward.z};
-    graze_vec3 minus = {t2 * (o->center.x - toward.x), t2 * (o->center.y - toward.y), t2 * (o->center.z - toward.z)};
-    graze_vec3 across = {2 * t * aside.x, 2 * t * aside.y, 2 * t * aside.z};
-    /* plus + s across + s^2 minus for s = 2u - 1 */
-    return (brdf_arc){
-        {plus.x - across.x + minus.x, plus.y - across.y + minus.y, plus.z - across.z + minus.z},
-        {2 * across.x - 4 * minus.x, 2 * across.y - 4 * minus.y, 2 * across.z - 4 * minus.z},
-        {4 * minus.x, 4 * minus.y, 4 * minus.z},
-    };
-}
-
-void brdf_outline_visit(const brdf_outline *o, brdf_arc_visitor *visit, void *context) {
-    chain c = {.visit = visit, .context = context};
-    size_t arcs = o->corners ? o->count : 4;
-    for (size_t i = 0; i < arcs; ++i) {
-        brdf_arc arc = o->corners ? straight(o->corners[i], o->corners[i + 1 < o->count ? i + 1 : 0])
-                                  : quarter_of_ellipse(o, (int)i);
-        add_above(&c, &arc);
-    }
-    if (c.begun && (c.late || c.broken))
-        join(&c, c.start);
+    if (!whole)
+        visitor->edge(visitor->context, normalize(corners[ARCS]), normalize(corners[0]));
 }

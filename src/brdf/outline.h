@@ -1,4 +1,4 @@
-/* Outlines of lights, cut at the horizon, as a closed chain of arcs.
+/* Outlines of lights, cut at the horizon, as a closed chain of great circles' arcs and parts of ellipses.
  *
  * Only the directions of an outline's points matter, not their distances. A part of an ellipse, whose points are
  * quotients of quadratic polynomials, is therefore as good as the polynomials above the quotients' common
@@ -8,45 +8,32 @@
 
 #include <stddef.h>
 
-#include "brdf/arithmetic.h"
 #include "graze/brdf.h"
 
-/* The directions constant + u linear + u^2 quadratic, of any length. */
+/* The directions (1-u)^2 c[0] + 2 u (1-u) c[1] + u^2 c[2] for u in 0 .. 1, of any length: Bernstein's form. */
 typedef struct brdf_arc {
-    graze_vec3 constant, linear, quadratic;
+    graze_vec3 c[3];
 } brdf_arc;
 
-BRDF_INLINE graze_vec3 brdf_arc_at(const brdf_arc *arc, double u) {
-    return (graze_vec3){arc->constant.x + u * (arc->linear.x + u * arc->quadratic.x),
-                        arc->constant.y + u * (arc->linear.y + u * arc->quadratic.y),
-                        arc->constant.z + u * (arc->linear.z + u * arc->quadratic.z)};
-}
+graze_vec3 brdf_middle_of_arc(const brdf_arc *);
+void brdf_halve_arc(const brdf_arc *, brdf_arc *first, brdf_arc *second);
 
-BRDF_INLINE graze_vec3 brdf_arc_derivative(const brdf_arc *arc, double u) {
-    return (graze_vec3){arc->linear.x + 2 * u * arc->quadratic.x, arc->linear.y + 2 * u * arc->quadratic.y,
-                        arc->linear.z + 2 * u * arc->quadratic.z};
-}
+/* How much an arc turns, for quadratures: the square of the angle through which it would turn were it all as fast as it
+ * may be at its ends, and how far it is from straight; DBL_MAX where ends and control are at more than right angles,
+ * no number where a length is 0. */
+double brdf_turn_of_arc(const brdf_arc *);
 
-/* Gauss's points and weights for the integral from 0 to 1. */
-enum { BRDF_GAUSS_POINTS = 8 };
-static const double brdf_gauss_points[BRDF_GAUSS_POINTS] = {
-    0x1.454e34f5339ap-6,  0x1.a06d536d82f88p-4, 0x1.e5dad4f9af698p-3, 0x1.a214dac30e32fp-2,
-    0x1.2ef5929e78e68p-1, 0x1.86894ac19425ap-1, 0x1.cbf255924fa0fp-1, 0x1.f5d58e5856633p-1};
-static const double brdf_gauss_weights[BRDF_GAUSS_POINTS] = {
-    0x1.9ea1d04ca03aep-5, 0x1.c76fb531d2b94p-4, 0x1.413c50a2556p-3,   0x1.736360b19933dp-3,
-    0x1.736360b19933dp-3, 0x1.413c50a2556p-3,   0x1.c76fb531d2b94p-4, 0x1.9ea1d04ca03aep-5};
+/* Takes what an outline is made of, in order; unit vectors are the ends of an edge, along a great circle. */
+typedef struct brdf_outline_visitor {
+    void (*edge)(void *context, graze_vec3 from, graze_vec3 to);
+    void (*arc)(void *context, const brdf_arc *);
+    void *context;
+} brdf_outline_visitor;
 
-/* A polygon, or, where `corners` is null, the ellipse center + cos(t) first + sin(t) second. */
-typedef struct brdf_outline {
-    const graze_vec3 *corners;
-    size_t count;
-    graze_vec3 center, first, second;
-} brdf_outline;
+/* The part above the surface of the polygon. */
+void brdf_outline_of_polygon(const graze_vec3 *corners, size_t count, const brdf_outline_visitor *);
 
-/* Takes the part of an arc between two values of u. */
-typedef void brdf_arc_visitor(void *context, const brdf_arc *, double from, double to);
-
-/* Visits all parts above the surface in order, and what closes the chain along the horizon. */
-void brdf_outline_visit(const brdf_outline *, brdf_arc_visitor *, void *context);
+/* That of the ellipse center + cos(t) first + sin(t) second: four arcs, and the edge along the horizon, if any. */
+void brdf_outline_of_ellipse(graze_vec3 center, graze_vec3 first, graze_vec3 second, const brdf_outline_visitor *);
 
 #endif
