@@ -48,10 +48,11 @@ typedef struct graze_trace_settings {
     int reflection_limit;      /* -lr: > 0: no more reflections than this before a light; 0: roulette; < 0: both */
     double minimum_weight;     /* -lw: below this weight paths are dropped (reflection_limit > 0) or play roulette */
     double specular_threshold; /* -st: rough lobes up to this specularity, 0 .. 1, are diffuse for indirect light */
-    double error;              /* stop when the standard error is about error x value or less; > 0 */
+    double error;              /* stop when the standard error is error x value or less; > 0 */
     double floor;              /* ... or below error x floor, in the unit of the value; >= 0 */
-    uint32_t samples;          /* not 0: exactly this many paths, at least 2 (or 1, where all paths are equal) */
-    uint32_t sample_limit;     /* with `error`: never more paths than this */
+    uint32_t samples;          /* not 0: exactly this many paths (but 1 where all paths are equal); powers of 2 serve
+                                  best; 1 leaves the standard error unknown */
+    uint32_t sample_limit;     /* with `error`: never more paths than this, at least 2 */
     uint64_t seed;             /* other seeds give other, equally good answers */
 } graze_trace_settings;
 
@@ -80,10 +81,14 @@ typedef struct graze_hit {
     graze_vec3 shading_normal; /* the same, perturbed by textures; on the ray's side unless the surface shines */
 } graze_hit;
 
+/* The standard error of one sample that random numbers went into: not known. */
+#define GRAZE_UNKNOWN_ERROR (-1.0)
+
 typedef struct graze_answer {
     graze_rgb value;
-    graze_rgb standard_error; /* of `value`, from the scatter of 16 replicates; 0 where all samples were equal, and
-                                 1e-8 x value or more where light was integrated without sampling */
+    graze_rgb standard_error; /* of `value`: `value` +- 1.96 of these holds the truth 19 times of 20; 0 where all
+                                 samples were equal, 1e-8 x value or more where light was integrated without sampling,
+                                 GRAZE_UNKNOWN_ERROR with settings.samples 1 */
     uint32_t samples;         /* paths taken */
     int converged;            /* 0: sample_limit was reached before the error asked for */
 } graze_answer;
@@ -97,16 +102,20 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  * GRAZE_IRRADIANCE it is of nothing. A ray that is not finite or has no direction answers 0.
  *
  * Samples come in two halves. Each goes on until the other has found that the answer will have the error asked for:
- * a half that judged itself would stop where it happens to agree with itself, and be wrong more often than it says. The
- * error stated is therefore sometimes a little above the one asked for.
+ * a half that judged itself would stop where it happens to agree with itself, and be wrong more often than it says.
+ * Last, both together must state it.
  *
  * What unshadowed lights throw directly on the first point that is no mirror is integrated rather than sampled
  * (graze/brdf_light.h). A light that is found to be seen wholly from there, or not at all, is not sampled; where all
  * are, and nothing else could be reflected, one path answers. Of other lights, what the samples find corrects the
  * integral, which counts as far as the other half finds no shadows.
  *
- * The standard error is estimated from what the samples found. Light that none of them found, such as that which a
- * small lamp throws on a diffuse wall by way of a mirror, is in neither the value nor its error. */
+ * The standard error is estimated from what the samples found: how the means of neighbouring blocks of 1, 2, 4 ...
+ * samples differ tells how fast the error falls with their number, and that is taken to go on, at a rate between
+ * 1/sqrt(samples), that of independent samples, and 1/samples. It is stated so much larger that 1.96 of it to each side
+ * hold the truth in 95% of all answers. Of what is smooth errors fall faster, and are stated too large. Light that none
+ * of the samples found, such as that which a small lamp throws on a diffuse wall by way of a mirror, is in neither the
+ * value nor its error. */
 GRAZE_API void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
                            uint64_t stream, graze_answer *answer, graze_hit *hit);
 

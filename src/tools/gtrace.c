@@ -110,10 +110,13 @@ static graze_status prepare_settings(job *j, const graze_report *report) {
     return render_options_settings(&render, j->options->sensor, &a->settings, report);
 }
 
-/* Letters that the quantity asked for leaves nothing to say. */
+/* Letters that the settings asked for leave nothing to say. */
 static graze_status check_letters(const job *j, const graze_report *report) {
     const ray_output *output = &j->answering.output;
     bool irradiance = j->answering.settings.quantity != GRAZE_RADIANCE;
+    if (j->answering.settings.samples == 1 && strchr(output->letters, 'e'))
+        return report_error(report, NULL, "-o%s: one sample has no standard error: --samples must be 2 or more",
+                            output->letters);
     if (irradiance && output->casts_only)
         return report_error(report, NULL, "-i and -I need an output that depends on light, such as -ov, not -o%s",
                             output->letters);

@@ -1,11 +1,12 @@
-/* Replicates, their mean and its standard error, and when to stop. */
+/* Two scrambled sequences, their mean and its standard error, and when to stop. */
 #include "trace/estimate.h"
 
 #include "base/vector.h"
+#include "trace/context.h"
 #include "trace/path.h"
 
-/* The first look at the error comes after this many samples a replicate; then after every doubling. */
-#define FIRST_LOOK 2u
+/* The first look at the error comes after this many samples of each half; then after every doubling. */
+#define FIRST_LOOK 4u
 /* Samples tell nothing of light that none of them has found, except that less than about 3 in their number carry it. So
  * many are taken before an answer is believed: of nothing but zeros, which where lights are sampled means shadow; of
  * paths that search; and of nothing but zeros from a search by reflections alone, which may take long to find a small
@@ -15,86 +16,216 @@
 #define EMPTY_SEARCH_BELIEVED 65536u
 
 /* In all that is noisy, something of the value's own size that has happened in none of n samples may yet change the
- * mean by a part of 1/n; so many times 1/n must be within the error. */
-#define UNSEEN 1.0
+ * mean: by 3/n of it where they are few and like independent ones, by 1/n where they are spread evenly. That much must
+ * be within the error. */
+#define UNSEEN      1.0
+#define UNSEEN_FEW  3.0
+#define FEW_SAMPLES 32.0
 
-enum { HALVES = 2, IN_HALF = ESTIMATE_REPLICATES / HALVES };
+/* A half keeps the sums of so many blocks of 2^j samples in a row; when they are full, j grows by 1. */
+#define BLOCKS 16
 
-/* One half of the replicates. Whatever is decided about a half's samples - how many there are, how much of a control is
- * added - is decided by what the other half has found. Decisions then do not depend on the samples that they are about,
- * and neither the mean nor its error is led astray: an answer that stopped when it looked good enough to itself would
- * be biased towards what looks good. */
+/* One half of the samples: a sequence of its own. Whatever is decided about a half's samples - how many there are, how
+ * much of a control is added - is decided by what the other half has found. Decisions then do not depend on the samples
+ * that they are about, and neither the mean nor its error is led astray: an answer that stopped when it looked good
+ * enough to itself would be biased towards what looks good. */
 typedef struct half {
-    uint64_t key[IN_HALF];
-    rgb sum[IN_HALF];
-    path_control controls[PATH_CONTROLS][IN_HALF]; /* sums */
-    path_control totals[PATH_CONTROLS];
-    int control_count;
-    bool integrated;    /* whether light was integrated in any sample */
-    uint32_t taken;     /* of all replicates together */
+    uint64_t key;
+    uint32_t taken;
+    int level;          /* a block has 2^level samples */
     estimate_luck luck; /* the worst of any sample */
+    bool integrated;    /* whether light was integrated in any sample */
+    int control_count;
     bool with_parts;
-    estimate_parts parts; /* sums */
+    estimate_parts parts;                            /* sums */
+    double lit[PATH_CONTROLS], whole[PATH_CONTROLS]; /* sums of the controls' */
+    rgb sum[BLOCKS];                                 /* those after the last block begun are not set */
+    rgb difference[BLOCKS][PATH_CONTROLS];
 } half;
 
-static uint32_t replicate_count(const half *h, int i) {
-    return h->taken / IN_HALF + ((uint32_t)i < h->taken % IN_HALF);
-}
+enum { HALVES = 2 };
 
-static int replicates_used(const half *h) {
-    return h->taken < IN_HALF ? (int)h->taken : IN_HALF;
-}
-
-/* The share of a control that the other half's replicates add: what of it is not shadowed. */
-static double share_of_control(const path_control *found) {
-    return found->lit < found->whole ? fmax(found->lit, 0) / found->whole : 1;
-}
-
-static rgb controlled_sum(const half *h, const half *other, int i) {
-    rgb sum = h->sum[i];
-    for (int k = 0; k < h->control_count; k++)
-        sum = rgb_add_scaled(sum, share_of_control(&other->totals[k]), h->controls[k][i].difference);
-    return sum;
-}
-
-static rgb total_of(const half *h, const half *other) {
-    rgb total = {0, 0, 0};
-    for (int i = 0; i < replicates_used(h); i++)
-        total = rgb_add(total, controlled_sum(h, other, i));
-    return total;
-}
-
-/* How widely the replicates' sums scatter about their shares of a mean: the sum of squares. */
-static rgb scatter_of(const half *h, const half *other, rgb mean) {
-    rgb sum = {0, 0, 0};
-    for (int i = 0; i < replicates_used(h); i++) {
-        rgb deviation = rgb_add_scaled(controlled_sum(h, other, i), -(double)replicate_count(h, i), mean);
-        sum = rgb_add(sum, rgb_multiply(deviation, deviation));
+static void merge_blocks(half *h) {
+    for (int i = 0; i < BLOCKS / 2; i++) {
+        h->sum[i] = rgb_add(h->sum[2 * i], h->sum[2 * i + 1]);
+        for (int k = 0; k < h->control_count; k++)
+            h->difference[i][k] = rgb_add(h->difference[2 * i][k], h->difference[2 * i + 1][k]);
     }
-    return sum;
+    h->level++;
 }
 
-/* A mean and its variance. */
+/* The block that the next sample belongs to. */
+static int next_block(half *h) {
+    if (h->taken >> h->level == BLOCKS)
+        merge_blocks(h);
+    int block = (int)(h->taken >> h->level);
+    if (h->taken == (uint32_t)block << h->level) {
+        h->sum[block] = rgb_gray(0);
+        for (int k = 0; k < h->control_count; k++)
+            h->difference[block][k] = rgb_gray(0);
+    }
+    return block;
+}
+
+static void add_controls(half *h, int block, const path_sample *sample) {
+    for (; h->control_count < sample->control_count; h->control_count++) {
+        int k = h->control_count;
+        h->lit[k] = h->whole[k] = 0;
+        for (int i = 0; i <= block; i++)
+            h->difference[i][k] = rgb_gray(0);
+    }
+    for (int k = 0; k < sample->control_count; k++) {
+        const path_control *control = &sample->controls[k];
+        h->difference[block][k] = rgb_add(h->difference[block][k], control->difference);
+        h->lit[k] += control->lit;
+        h->whole[k] += control->whole;
+    }
+}
+
+static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
+    sampler points = sampler_start(h->key, h->taken);
+    estimate_luck luck = ESTIMATE_NOISY;
+    path_sample taken = sample(user, &points, &luck);
+    int block = next_block(h);
+    h->sum[block] = rgb_add(h->sum[block], taken.radiance);
+    add_controls(h, block, &taken);
+    h->integrated = h->integrated || taken.integrated;
+    h->luck = luck > h->luck ? luck : h->luck;
+    if (h->with_parts) {
+        h->parts.indirect = rgb_add(h->parts.indirect, taken.indirect);
+        h->parts.albedo = rgb_add(h->parts.albedo, taken.albedo);
+    }
+    h->taken++;
+    return luck;
+}
+
+static void take_until(half *h, uint32_t goal, estimate_sample *sample, void *user) {
+    while (h->taken < goal)
+        (void)take_one(h, sample, user);
+}
+
+/* How the variance of the mean of 2^j samples in a row may fall: as 2^-j, as that of independent samples does, or as
+ * 4^-j, as it does along edges and better of what is smooth. Beyond that nothing is taken for granted. */
+typedef struct laws {
+    double slow, fast;
+} laws;
+
+/* Of n samples, in units of one sample's variance. With the fast law two blocks of p samples that make one of 2p have
+ * the covariance -1/(2p^2), and so has any part of one with the other; hence the variance of a sum is 1 for each binary
+ * digit of n that is 1, of value p, less (the sum of the digits below)/p. */
+static laws variance_of_mean(uint32_t n) {
+    double sum = 0;
+    for (uint32_t rest = n, p = UINT32_C(1) << 31; p > 0; p >>= 1)
+        if (rest >= p) {
+            rest -= p;
+            sum += 1 - (double)rest / p;
+        }
+    return (laws){1.0 / n, sum / ((double)n * n)};
+}
+
+/* Of half the difference of two blocks of 2^level samples that make up one: the variance of a block less that of both
+ * together. */
+static laws variance_of_difference(int level) {
+    return (laws){0.5 * ldexp(1, -level), 0.75 * ldexp(1, -2 * level)};
+}
+
+/* What has been seen of the variance: squares over what each law expects of them. */
+typedef struct evidence {
+    double freedom; /* of how many squares */
+    rgb slow, fast;
+    double odds; /* log2 of how much likelier the sizes of the squares are by the fast law, but for its own sum */
+} evidence;
+
+static void add_evidence(evidence *e, laws expected, double freedom, rgb squares) {
+    e->freedom += freedom;
+    e->slow = rgb_add_scaled(e->slow, 1 / expected.slow, squares);
+    e->fast = rgb_add_scaled(e->fast, 1 / expected.fast, squares);
+    e->odds += freedom / 2 * log2(expected.slow / expected.fast);
+}
+
+/* How much likelier the slow law is beforehand. Of many intervals like those in test/trace/coverage.c 93.7% hold the
+ * truth with 1, 96.4% with 4, which also is right where samples are as good as independent. */
+#define SLOW_BEFOREHAND 3.0
+
+/* The probability of the fast law (of normal values, their variance unknown). */
+static double probability_of_fast(const evidence *e) {
+    double slow = e->slow.r + e->slow.g + e->slow.b, fast = e->fast.r + e->fast.g + e->fast.b;
+    return 1 / (1 + SLOW_BEFOREHAND * exp2(-e->odds - e->freedom / 2 * log2(slow / fast)));
+}
+
+/* (t/1.96)^2, where t bounds 95% of Student's distribution: within 2% from 1 degree of freedom on. Of less than that
+ * hardly anything is known. */
+static double widening(double freedom) {
+    double f = fmax(freedom, 1);
+    return 1 + 2.42 / (f - 1.77 + 0.829 / f);
+}
+
+/* The variance of what has the variance `wanted` in units of one sample's; so much larger that 1.96 of its roots bound
+ * 95% of all errors. */
+static rgb variance_by(const evidence *e, laws wanted) {
+    if (rgb_max(e->slow) <= 0)
+        return rgb_gray(0);
+    double probability = probability_of_fast(e), scale = widening(e->freedom) / e->freedom;
+    rgb slow = rgb_scale((1 - probability) * wanted.slow, e->slow);
+    return rgb_scale(scale, rgb_add_scaled(slow, probability * wanted.fast, e->fast));
+}
+
+/* The share of a control that the other half's samples add: what of it is not shadowed. */
+static double share_of_control(const half *other, int k) {
+    bool shadowed = k < other->control_count && other->lit[k] < other->whole[k];
+    return shadowed ? fmax(other->lit[k], 0) / other->whole[k] : 1;
+}
+
+/* What a half has found. */
 typedef struct finding {
-    rgb mean, variance;
-    uint32_t taken;
-    estimate_luck luck;
+    rgb mean;
+    evidence evidence;
 } finding;
 
-static rgb variance_of(rgb scatter, int used, uint32_t taken) {
-    return rgb_scale(used > 1 ? used / (used - 1.0) / ((double)taken * taken) : 0, scatter);
+static void add_differences(evidence *e, rgb *mean, int count, int level) {
+    for (; count > 1; count /= 2, level++) {
+        rgb squares = {0, 0, 0};
+        for (int i = 0; i < count / 2; i++) {
+            rgb difference = rgb_scale(0.5, rgb_add_scaled(mean[2 * i], -1, mean[2 * i + 1]));
+            squares = rgb_add(squares, rgb_multiply(difference, difference));
+            mean[i] = rgb_scale(0.5, rgb_add(mean[2 * i], mean[2 * i + 1]));
+        }
+        add_evidence(e, variance_of_difference(level), count / 2, squares);
+    }
 }
 
 static finding finding_of(const half *h, const half *other) {
-    rgb mean = rgb_scale(1.0 / h->taken, total_of(h, other));
-    return (finding){mean, variance_of(scatter_of(h, other, mean), replicates_used(h), h->taken), h->taken, h->luck};
+    double share[PATH_CONTROLS];
+    for (int k = 0; k < h->control_count; k++)
+        share[k] = share_of_control(other, k);
+    int full = (int)(h->taken >> h->level), begun = full + (h->taken > (uint32_t)full << h->level);
+    rgb mean[BLOCKS], total = {0, 0, 0};
+    for (int i = 0; i < begun; i++) {
+        rgb sum = h->sum[i];
+        for (int k = 0; k < h->control_count; k++)
+            sum = rgb_add_scaled(sum, share[k], h->difference[i][k]);
+        total = rgb_add(total, sum);
+        mean[i] = rgb_scale(ldexp(1, -h->level), sum);
+    }
+    finding found = {.mean = rgb_scale(1.0 / h->taken, total)};
+    add_differences(&found.evidence, mean, full, h->level);
+    return found;
 }
 
-/* Of what is known without sampling, the error that graze/brdf_light.h allows. */
-#define KNOWN_ERROR 1e-8
+static evidence joined(const evidence *a, const evidence *b) {
+    return (evidence){a->freedom + b->freedom, rgb_add(a->slow, b->slow), rgb_add(a->fast, b->fast), a->odds + b->odds};
+}
 
-static double standard_error(double variance, double known) {
-    return sqrt(variance + KNOWN_ERROR * known * (KNOWN_ERROR * known));
+/* Of what is known without sampling, the error that graze/brdf_light.h allows; of what differs from sample to sample,
+ * if in its last digits only, that of adding some thousands in a row. */
+#define KNOWN_ERROR    1e-8
+#define ROUNDING_ERROR 1e-12
+
+static rgb with_known_error(rgb variance, rgb value, const half halves[HALVES]) {
+    bool integrated = halves[0].integrated || halves[1].integrated;
+    rgb error = rgb_scale(integrated ? KNOWN_ERROR : rgb_max(variance) > 0 ? ROUNDING_ERROR : 0, value);
+    rgb sum = rgb_add(variance, rgb_multiply(error, error));
+    return (rgb){sqrt(sum.r), sqrt(sum.g), sqrt(sum.b)};
 }
 
 /* Radiance is not negative, though controls are, and few samples of much noise may leave more of them than of light:
@@ -103,73 +234,28 @@ static rgb not_negative(rgb mean) {
     return (rgb){fmax(mean.r, 0), fmax(mean.g, 0), fmax(mean.b, 0)};
 }
 
-static void set_answer(graze_answer *answer, rgb mean, rgb variance, const half halves[HALVES]) {
-    rgb known = halves[0].integrated || halves[1].integrated ? mean : rgb_gray(0);
-    answer->value = not_negative(mean);
-    answer->standard_error = (rgb){standard_error(variance.r, known.r), standard_error(variance.g, known.g),
-                                   standard_error(variance.b, known.b)};
+/* How much each half counts: by its number of samples where that is as good as the other's; where the numbers were
+ * decided to be different, as much as the other, since its number depends on what the other found. */
+static void share_halves(const half halves[HALVES], double share[HALVES]) {
+    uint32_t all = halves[0].taken + halves[1].taken;
+    bool alike = halves[0].taken < halves[1].taken + 2 && halves[1].taken <= halves[0].taken;
+    for (int i = 0; i < HALVES; i++)
+        share[i] = alike ? (double)halves[i].taken / all : 0.5;
+}
+
+static void summarize(const half halves[HALVES], const finding found[HALVES], graze_answer *answer) {
+    double share[HALVES];
+    share_halves(halves, share);
+    laws first = variance_of_mean(halves[0].taken), second = variance_of_mean(halves[1].taken);
+    evidence e = joined(&found[0].evidence, &found[1].evidence);
+    rgb between = rgb_add_scaled(found[0].mean, -1, found[1].mean);
+    add_evidence(&e, (laws){first.slow + second.slow, first.fast + second.fast}, 1, rgb_multiply(between, between));
+    double squares[HALVES] = {share[0] * share[0], share[1] * share[1]};
+    rgb variance = variance_by(&e, (laws){squares[0] * first.slow + squares[1] * second.slow,
+                                          squares[0] * first.fast + squares[1] * second.fast});
+    answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
+    answer->standard_error = with_known_error(variance, answer->value, halves);
     answer->samples = halves[0].taken + halves[1].taken;
-}
-
-/* Where both halves have as many samples, the mean of all. */
-static void summarize_together(const half halves[HALVES], graze_answer *answer) {
-    uint32_t taken = halves[0].taken + halves[1].taken;
-    rgb total = rgb_add(total_of(&halves[0], &halves[1]), total_of(&halves[1], &halves[0]));
-    rgb mean = rgb_scale(1.0 / taken, total);
-    rgb scatter = rgb_add(scatter_of(&halves[0], &halves[1], mean), scatter_of(&halves[1], &halves[0], mean));
-    int used = replicates_used(&halves[0]) + replicates_used(&halves[1]);
-    set_answer(answer, mean, variance_of(scatter, used, taken), halves);
-}
-
-/* Where the numbers were decided to be different, the mean of both halves, each counted as much as the other: a weight
- * by its number of samples would depend on the other's. */
-static void summarize_evenly(const half halves[HALVES], graze_answer *answer) {
-    finding a = finding_of(&halves[0], &halves[1]), b = finding_of(&halves[1], &halves[0]);
-    set_answer(answer, rgb_scale(0.5, rgb_add(a.mean, b.mean)), rgb_scale(0.25, rgb_add(a.variance, b.variance)),
-               halves);
-}
-
-static bool are_even(const half halves[HALVES]) {
-    return halves[0].taken < halves[1].taken + 2 && halves[1].taken <= halves[0].taken;
-}
-
-static void summarize(const half halves[HALVES], graze_answer *answer) {
-    if (are_even(halves))
-        summarize_together(halves, answer);
-    else
-        summarize_evenly(halves, answer);
-}
-
-static void add_control(path_control *sum, const path_control *control) {
-    sum->difference = rgb_add(sum->difference, control->difference);
-    sum->lit += control->lit;
-    sum->whole += control->whole;
-}
-
-static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
-    int i = (int)(h->taken % IN_HALF);
-    sampler points = sampler_start(h->key[i], h->taken / IN_HALF);
-    estimate_luck luck = ESTIMATE_NOISY;
-    path_sample taken = sample(user, &points, &luck);
-    h->sum[i] = rgb_add(h->sum[i], taken.radiance);
-    for (int k = 0; k < taken.control_count; k++) {
-        add_control(&h->controls[k][i], &taken.controls[k]);
-        add_control(&h->totals[k], &taken.controls[k]);
-    }
-    h->control_count = taken.control_count > h->control_count ? taken.control_count : h->control_count;
-    h->integrated = h->integrated || taken.integrated;
-    if (h->with_parts) {
-        h->parts.indirect = rgb_add(h->parts.indirect, taken.indirect);
-        h->parts.albedo = rgb_add(h->parts.albedo, taken.albedo);
-    }
-    h->luck = luck > h->luck ? luck : h->luck;
-    h->taken++;
-    return luck;
-}
-
-static void take_until(half *h, uint32_t goal, estimate_sample *sample, void *user) {
-    while (h->taken < goal)
-        (void)take_one(h, sample, user);
 }
 
 static double samples_to_believe(const graze_trace_settings *s, estimate_luck luck, double value) {
@@ -180,77 +266,99 @@ static double samples_to_believe(const graze_trace_settings *s, estimate_luck lu
         return EMPTY_SEARCH_BELIEVED;
     if (value == 0)
         return ZEROS_BELIEVED;
-    double unseen = UNSEEN * value / (s->error * fmax(value, s->floor));
+    double part = value / (s->error * fmax(value, s->floor));
+    double unseen = fmax(UNSEEN * part, fmin(UNSEEN_FEW * part, FEW_SAMPLES));
     return search ? fmax(unseen, SEARCH_BELIEVED) : unseen;
 }
 
-/* How many times too large the error of both halves together would be if the other half had `taken` samples, too, as
- * its finding tells. */
-static double excess(const graze_trace_settings *s, const finding *found, uint32_t taken) {
-    double allowed = s->error * fmax(rgb_max(found->mean), s->floor);
-    double variance = rgb_max(found->variance) / HALVES * found->taken / taken;
-    return allowed > 0 ? sqrt(variance) / allowed : 0;
+/* Whether so many samples in either half are enough, as one of them finds. */
+static bool is_enough(const graze_trace_settings *s, const half *judge, const finding *found, uint32_t taken) {
+    double value = rgb_max(found->mean);
+    if (taken < samples_to_believe(s, judge->luck, value) / HALVES)
+        return false;
+    double allowed = s->error * fmax(value, s->floor);
+    rgb variance = variance_by(&found->evidence, variance_of_mean(taken));
+    return rgb_max(variance) / HALVES <= allowed * allowed;
 }
 
-/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. An error that is
- * small by chance, because the samples happen to agree, was seldom small before; so it must have been at most twice as
- * large when there were half as many. In the end both together must say so, too, or all begins again. */
+static bool is_stated(const graze_trace_settings *s, const graze_answer *answer) {
+    return rgb_max(answer->standard_error) <= s->error * fmax(rgb_max(answer->value), s->floor);
+}
+
+/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. In the end both
+ * together must say so, too, or all begins again. */
 static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
     uint32_t limit = s->sample_limit / HALVES;
     bool enough[HALVES] = {false, false};
-    double before[HALVES] = {0, 0};
-    for (uint64_t goal = FIRST_LOOK * IN_HALF;; goal *= 2) {
+    for (uint64_t goal = FIRST_LOOK;; goal *= 2) {
         bool last = goal >= limit;
         for (int i = 0; i < HALVES; i++)
             if (!enough[i])
                 take_until(&halves[i], last ? limit : (uint32_t)goal, sample, user);
-        const finding findings[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
-        for (int i = 0; i < HALVES; i++) {
-            const finding *other = &findings[1 - i];
-            double now = excess(s, other, halves[i].taken);
-            double needed = samples_to_believe(s, other->luck, rgb_max(other->mean)) / HALVES;
-            enough[i] = enough[i] || (now <= 1 && before[i] <= 2 && halves[i].taken >= needed);
-            before[i] = now;
-        }
+        const finding found[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
+        for (int i = 0; i < HALVES; i++)
+            enough[i] = enough[i] || is_enough(s, &halves[1 - i], &found[1 - i], halves[i].taken);
         if (!last && !(enough[0] && enough[1]))
             continue;
-        summarize(halves, answer);
-        double allowed = s->error * fmax(rgb_max(answer->value), s->floor);
-        bool reached = enough[0] && enough[1] && rgb_max(answer->standard_error) <= allowed;
+        summarize(halves, found, answer);
+        bool reached = enough[0] && enough[1] && is_stated(s, answer);
         if (reached || last)
             return reached;
         enough[0] = enough[1] = false;
     }
 }
 
+static void begin(half *h, uint64_t key, bool with_parts) {
+    h->key = key;
+    h->taken = 0;
+    h->level = h->control_count = 0;
+    h->integrated = false;
+    h->luck = ESTIMATE_EXACT;
+    h->with_parts = with_parts;
+    h->parts = (estimate_parts){{0, 0, 0}, {0, 0, 0}};
+}
+
+static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
+                            graze_answer *answer) {
+    bool exact = take_one(&halves[0], sample, user) == ESTIMATE_EXACT;
+    if (exact || s->samples == 1) {
+        answer->value = not_negative(halves[0].sum[0]);
+        answer->standard_error =
+            exact ? with_known_error(rgb_gray(0), answer->value, halves) : rgb_gray(GRAZE_UNKNOWN_ERROR);
+        answer->samples = 1;
+        return;
+    }
+    if (s->samples) {
+        take_until(&halves[0], s->samples - s->samples / HALVES, sample, user);
+        take_until(&halves[1], s->samples / HALVES, sample, user);
+        const finding found[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
+        summarize(halves, found, answer);
+    } else {
+        answer->converged = refine(halves, s, sample, user, answer);
+    }
+}
+
 /* Controls are direct light, and change none of the parts. */
 static estimate_parts mean_parts(const half halves[HALVES]) {
     estimate_parts mean = {{0, 0, 0}, {0, 0, 0}};
+    double share[HALVES];
+    share_halves(halves, share);
     for (int i = 0; i < HALVES && halves[i].taken > 0; i++) {
-        const half *h = &halves[i];
-        double weight = are_even(halves) ? 1.0 / (halves[0].taken + halves[1].taken) : 0.5 / h->taken;
-        mean.indirect = rgb_add_scaled(mean.indirect, weight, h->parts.indirect);
-        mean.albedo = rgb_add_scaled(mean.albedo, weight, h->parts.albedo);
+        double weight = halves[1].taken > 0 ? share[i] / halves[i].taken : 1;
+        mean.indirect = rgb_add_scaled(mean.indirect, weight, halves[i].parts.indirect);
+        mean.albedo = rgb_add_scaled(mean.albedo, weight, halves[i].parts.albedo);
     }
     return mean;
 }
 
 void estimate_with_parts(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
                          graze_answer *answer, estimate_parts *parts) {
-    half halves[HALVES] = {{.with_parts = parts != NULL}, {.with_parts = parts != NULL}};
-    for (int i = 0; i < ESTIMATE_REPLICATES; i++)
-        halves[i % HALVES].key[i / HALVES] = sampler_key(s->seed, stream, (uint32_t)i);
+    half halves[HALVES];
+    for (int i = 0; i < HALVES; i++)
+        begin(&halves[i], sampler_key(s->seed, stream, (uint32_t)i), parts != NULL);
     *answer = (graze_answer){.converged = 1};
-    if (take_one(&halves[0], sample, user) == ESTIMATE_EXACT) {
-        set_answer(answer, halves[0].sum[0], rgb_gray(0), halves);
-    } else if (s->samples) {
-        take_until(&halves[0], s->samples - s->samples / HALVES, sample, user);
-        take_until(&halves[1], s->samples / HALVES, sample, user);
-        summarize(halves, answer);
-    } else {
-        answer->converged = refine(halves, s, sample, user, answer);
-    }
+    estimate_halves(halves, s, sample, user, answer);
     if (parts)
         *parts = mean_parts(halves);
 }

@@ -1,8 +1,10 @@
 /* Means with a standard error that low-discrepancy points do not fool.
  *
  * The points of one scrambled sequence are not independent, so the scatter of their values says little of their mean's
- * error. Samples therefore come from several sequences scrambled independently, the replicates, taken in turn; the
- * scatter of the replicates' means is that of independent, equally distributed numbers. */
+ * error. But cut into blocks of 2^j points they are nets of the same kind and of equal distribution, at every j; how
+ * the means of neighbouring blocks differ tells how the error falls with the length of a block, and that leads on to
+ * the whole. Two long sequences then do, scrambled independently, where the scatter of many short ones would cost much
+ * of what low-discrepancy points are good for. */
 #ifndef TRACE_ESTIMATE_H
 #define TRACE_ESTIMATE_H
 
@@ -13,8 +15,6 @@
 #include "graze/trace.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
-
-#define ESTIMATE_REPLICATES 16
 
 /* What a sample's value depends on besides its question. */
 typedef enum estimate_luck {

@@ -42,8 +42,6 @@ graze_status graze_trace_check(const graze_trace_settings *s, const graze_report
         return report_error(report, NULL, "the error must be positive");
     if (!(s->floor >= 0 && isfinite(s->floor)))
         return report_error(report, NULL, "the floor must be finite and not negative");
-    if (s->samples == 1)
-        return report_error(report, NULL, "a standard error needs at least 2 samples");
     if (s->sample_limit < 2)
         return report_error(report, NULL, "the limit must leave at least 2 samples");
     return GRAZE_OK;

@@ -113,7 +113,7 @@ fails "an unknown format" 1 "-fxy" "" "$gtrace" -fxy room.rad
 fails "an unknown letter" 1 "'q'" "" "$gtrace" -ovq room.rad
 fails "colors of more than the value" 1 "-ov" "" "$gtrace" -fac -ovl room.rad
 fails "an unknown strategy" 1 "'fast'" "" "$gtrace" --strategy fast room.rad
-fails "one sample" 1 "2 samples" "" "$gtrace" --samples 1 room.rad
+fails "the error of one sample" 1 "2 or more" "" "$gtrace" --samples 1 -ove room.rad
 fails "no scene" 1 "no scene" "" "$gtrace"
 fails "standard input as a scene" 1 "standard input" "" "$gtrace" -
 fails "irradiance of nothing" 1 "-os" "" "$gtrace" -i -os room.rad

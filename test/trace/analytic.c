@@ -73,10 +73,16 @@ static void furnace_of_a_glossy_floor(void **state) {
     for (int model = 0; model < 4; model++) {
         lobe.model = (graze_brdf_model)model;
         double truth = 0.5 * 0.4 + 0.5 * 0.6 * graze_brdf_albedo(&lobe, view);
-        for (int strategy = 0; strategy < 3; strategy++)
-            assert_answer(ask_of_model("void metal2 m 4 1 0 0 . 0 6 .5 .5 .5 .6 .1 .3\n" FLOOR SKY(1), lobe.model,
-                                       settings_for((graze_strategy)strategy, 1), slanted),
-                          truth, 0.002);
+        for (int strategy = 0; strategy < 3; strategy++) {
+            graze_trace_settings s = settings_for((graze_strategy)strategy, 1);
+            /* The weights of this model's reflections have no bound (Eq. 8). The few that are huge must have been met
+             * often before the error is known. */
+            if (model == GRAZE_BRDF_WARD_DUER && strategy == GRAZE_STRATEGY_BRDF)
+                s.samples = s.sample_limit;
+            assert_answer(
+                ask_of_model("void metal2 m 4 1 0 0 . 0 6 .5 .5 .5 .6 .1 .3\n" FLOOR SKY(1), lobe.model, s, slanted),
+                truth, 0.002);
+        }
     }
 }
 
@@ -271,9 +277,9 @@ static void stopping_is_honest(void **state) {
             graze_trace(scene, &s, &ray, (uint64_t)stream, &answer, NULL);
             sum += answer.value.g;
             variance += answer.standard_error.g * answer.standard_error.g;
-            covered += fabs(answer.value.g - truth) <= 2.131 * answer.standard_error.g;
+            covered += fabs(answer.value.g - truth) <= 1.96 * answer.standard_error.g;
         }
-        if (fabs(sum / COUNT - truth) > 4 * sqrt(variance) / COUNT || covered < 0.92 * COUNT || covered > 0.97 * COUNT)
+        if (fabs(sum / COUNT - truth) > 4 * sqrt(variance) / COUNT || covered < 0.93 * COUNT)
             fail_msg("--error %g: mean %g of %g, %d of %d covered", s.error, sum / COUNT, truth, covered, COUNT);
     }
     graze_scene_destroy(scene);

@@ -48,7 +48,7 @@ static graze_trace_settings fixed(uint32_t samples) {
 
 static void takes_exactly_the_samples_asked_for(void **state) {
     (void)state;
-    for (uint32_t n = 2; n < 100; n += 7) {
+    for (uint32_t n = 2; n < 2000; n = n + n / 4 + 3) {
         graze_trace_settings s = fixed(n);
         graze_answer answer;
         calls = 0;
@@ -71,26 +71,108 @@ static void an_exact_answer_takes_one_sample(void **state) {
     assert_close(answer.standard_error.b, 0, 0);
 }
 
-/* Student's t for 15 degrees of freedom: 95% of the intervals must hold the truth, give or take the noise of 4000. */
-static void check_coverage(estimate_sample *sample, double truth, uint32_t samples) {
-    int covered = 0, count = 4000;
-    graze_trace_settings s = fixed(samples);
-    for (int i = 0; i < count; i++) {
-        graze_answer answer;
-        estimate(&s, (uint64_t)i, sample, NULL, &answer);
-        covered += fabs(answer.value.r - truth) <= 2.131 * answer.standard_error.r;
-    }
-    double share = (double)covered / count;
-    if (share < 0.935 || share > 0.965)
-        fail_msg("%.1f%% covered with %u samples", 100 * share, samples);
+/* A sum of a sequence's points' independent coins: no better than independent samples. */
+static path_sample coin(void *user, sampler *points, estimate_luck *luck) {
+    (void)user;
+    double coins = 0;
+    for (int i = 0; i < 8; i++)
+        coins += (uint64_t)(sampler_1d(points) * 0x1p53) & 1;
+    *luck = ESTIMATE_NOISY;
+    return (path_sample){.radiance = rgb_gray(coins)};
 }
 
+typedef struct coverage {
+    double covered, made, claimed; /* a share; root mean squares */
+} coverage;
+
+static coverage cover(estimate_sample *sample, double truth, uint32_t samples) {
+    enum { COUNT = 4000 };
+    coverage c = {0};
+    graze_trace_settings s = fixed(samples);
+    for (int i = 0; i < COUNT; i++) {
+        graze_answer answer;
+        estimate(&s, (uint64_t)i, sample, NULL, &answer);
+        double error = answer.value.r - truth;
+        c.covered += (fabs(error) <= 1.96 * answer.standard_error.r) / (double)COUNT;
+        c.made += error * error / COUNT;
+        c.claimed += answer.standard_error.r * answer.standard_error.r / COUNT;
+    }
+    return (coverage){c.covered, sqrt(c.made), sqrt(c.claimed)};
+}
+
+static void assert_covered(estimate_sample *sample, double truth, uint32_t samples, double times) {
+    coverage c = cover(sample, truth, samples);
+    if (c.covered < 0.92 || c.claimed > times * c.made)
+        fail_msg("%u samples: %.1f%% covered, error %g, claimed %g", samples, 100 * c.covered, c.made, c.claimed);
+}
+
+/* Whatever the number of samples, powers of 2 or not; with few the error is hardly known, and stated the larger. */
 static void intervals_cover_the_truth(void **state) {
     (void)state;
-    for (uint32_t samples = 16; samples <= 256; samples *= 4) {
-        check_coverage(smooth, smooth_mean, samples);
-        check_coverage(disk, acos(-1) / 4, samples < 64 ? 64 : samples);
+    static const uint32_t counts[] = {16, 23, 50, 64, 100, 256, 300, 1000};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        assert_covered(coin, 4, counts[i], counts[i] < 50 ? 2 : 1.3);
+        assert_covered(disk, acos(-1) / 4, counts[i], counts[i] < 50 ? 2.5 : 2);
+        if (counts[i] < 300)
+            assert_covered(smooth, smooth_mean, counts[i], 6);
     }
+}
+
+/* Two sequences, not many: what is smooth gets an error that falls faster than as 1/samples. */
+static void long_sequences_are_used(void **state) {
+    (void)state;
+    assert_true(cover(smooth, smooth_mean, 256).made < cover(smooth, smooth_mean, 64).made / 5);
+    assert_true(cover(disk, acos(-1) / 4, 256).made < cover(disk, acos(-1) / 4, 64).made / 2.5);
+}
+
+/* Of one sample that is not exact no error is known, and none is stated. */
+static void one_sample_has_no_error(void **state) {
+    (void)state;
+    graze_trace_settings s = fixed(1);
+    graze_answer answer;
+    calls = 0;
+    estimate(&s, 1, smooth, NULL, &answer);
+    assert_int_equal(calls, 1);
+    assert_int_equal(answer.samples, 1);
+    assert_int_equal(answer.converged, 1);
+    assert_close(answer.standard_error.g, GRAZE_UNKNOWN_ERROR, 0);
+    estimate(&s, 1, constant, &(rgb){1, 2, 3}, &answer);
+    assert_close(answer.standard_error.g, 0, 0);
+}
+
+/* A light half hidden, which is noise, beside other noise. The control, of mean 0, is what it would be if it were not
+ * hidden; the share that the other half found takes away some of its noise and does not shift the mean. */
+static path_sample half_shadowed(void *user, sampler *points, estimate_luck *luck) {
+    double u[2];
+    sampler_2d(points, u);
+    /* Low digits, which are as if independent. */
+    bool lit = fmod(u[0] * 0x1p20, 1) < 0.5;
+    double light = fmod(u[1] * 0x1p20, 1) < 0.1 ? 10 : 0;
+    *luck = ESTIMATE_NOISY;
+    path_sample sample = {.radiance = rgb_gray(lit ? light : 0)};
+    if (*(bool *)user) {
+        sample.controls[0] = (path_control){rgb_gray(1 - light), lit ? light : 0, light};
+        sample.control_count = 1;
+    }
+    return sample;
+}
+
+static void controls_help_and_do_not_shift(void **state) {
+    (void)state;
+    enum { COUNT = 4000 };
+    graze_trace_settings s = fixed(256);
+    double sum[2] = {0}, squares[2] = {0}, claimed = 0;
+    for (int i = 0; i < 2 * COUNT; i++) {
+        graze_answer answer;
+        bool controlled = i % 2;
+        estimate(&s, (uint64_t)i, half_shadowed, &controlled, &answer);
+        sum[controlled] += answer.value.g - 0.5;
+        squares[controlled] += (answer.value.g - 0.5) * (answer.value.g - 0.5);
+        claimed += controlled ? answer.standard_error.g * answer.standard_error.g : 0;
+    }
+    assert_true(squares[1] < 0.8 * squares[0]);
+    assert_true(claimed > 0.8 * squares[1] && claimed < 2 * squares[1]);
+    assert_true(fabs(sum[1]) < 3 * sqrt(squares[1]));
 }
 
 static void stops_at_the_error_asked_for(void **state) {
@@ -160,6 +242,9 @@ int main(void) {
         cmocka_unit_test(takes_exactly_the_samples_asked_for),
         cmocka_unit_test(an_exact_answer_takes_one_sample),
         cmocka_unit_test(intervals_cover_the_truth),
+        cmocka_unit_test(long_sequences_are_used),
+        cmocka_unit_test(one_sample_has_no_error),
+        cmocka_unit_test(controls_help_and_do_not_shift),
         cmocka_unit_test(stops_at_the_error_asked_for),
         cmocka_unit_test(zeros_need_many_samples_unless_certain),
         cmocka_unit_test(searches_need_many_samples),
