@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "trace/estimate.h"
+#include "trace/irradiance_cache.h"
 #include "trace/path.h"
 
 #define TILE 16
@@ -15,6 +16,9 @@
  * samples. */
 #define PILOT_SIDE    64
 #define PILOT_SAMPLES 16
+/* Pictures of fewer pixels, and of smaller errors, need no irradiance cache. */
+#define CACHE_PIXELS 2048
+#define CACHE_ERROR  0.005
 
 /* The planes of the image, by meaning. */
 typedef struct planes {
@@ -28,6 +32,7 @@ typedef struct rendering {
     image *image;
     planes planes;
     progress *progress;
+    irradiance_cache *cache;
     int tiles_across, tiles_down;
     atomic_size_t tiles_done, unconverged;
 } rendering;
@@ -64,7 +69,7 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     graze_ray ray;
     if (!pixel_ray(p, 0.5 + jitter * (random[0] - 0.5), 0.5 + jitter * (random[1] - 0.5), &ray))
         return (path_sample){.noisy = false};
-    path_context context = {r->scene, &r->trace};
+    path_context context = {r->scene, &r->trace, r->cache, NULL};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     path_sample sample = path_radiance(&context, &first, points);
     if (sample.noisy)
@@ -132,32 +137,58 @@ typedef struct pilot {
     rgb *values;
 } pilot;
 
-static void sample_pilot(void *user, size_t index, int worker) {
-    (void)worker;
-    pilot *p = user;
-    const picture_settings *s = p->rendering->picture;
-    int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
-    pixel at = {p->rendering, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows)};
-    p->values[index] = estimate_pixel(&at, &p->trace).value;
-}
-
-static graze_status estimate_mean(const rendering *r, double *mean, const graze_report *report) {
+static pilot make_pilot(const rendering *r) {
     const picture_settings *s = r->picture;
     pilot p = {.rendering = r, .trace = r->trace};
     p.columns = s->width < PILOT_SIDE ? s->width : PILOT_SIDE;
     p.rows = s->height < PILOT_SIDE ? s->height : PILOT_SIDE;
     p.trace.samples = PILOT_SAMPLES;
+    return p;
+}
+
+static pixel pilot_pixel(const pilot *p, size_t index) {
+    const picture_settings *s = p->rendering->picture;
+    int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
+    return (pixel){p->rendering, (int)((column + 0.5) * s->width / p->columns),
+                   (int)((row + 0.5) * s->height / p->rows)};
+}
+
+static void sample_pilot(void *user, size_t index, int worker) {
+    (void)worker;
+    pilot *p = user;
+    pixel at = pilot_pixel(p, index);
+    p->values[index] = estimate_pixel(&at, &p->trace).value;
+}
+
+static graze_status estimate_mean(const rendering *r, double *mean, const graze_report *report) {
+    pilot p = make_pilot(r);
     size_t count = (size_t)p.columns * (size_t)p.rows;
     p.values = malloc(count * sizeof *p.values);
     if (!p.values)
         return report_out_of_memory(report);
-    parallel_for(s->threads, count, sample_pilot, &p);
+    parallel_for(r->picture->threads, count, sample_pilot, &p);
     rgb sum = {0, 0, 0};
     for (size_t i = 0; i < count; i++)
         sum = rgb_add(sum, p.values[i]);
     free(p.values);
     *mean = rgb_max(sum) / (double)count;
     return GRAZE_OK;
+}
+
+/* What the pilot paths of the irradiance cache meet first: pixels of the same sparse grid. */
+static path_hit pilot_hit(void *user, size_t index) {
+    const pilot *p = user;
+    const path_context context = {.scene = p->rendering->scene, .settings = &p->rendering->trace};
+    pixel at = pilot_pixel(p, index);
+    graze_ray ray;
+    if (!pixel_ray(&at, 0.5, 0.5, &ray))
+        return (path_hit){.surface = -1, .light = -1};
+    return path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
+}
+
+/* The cache is for interreflections, in pictures large enough to make up for what it costs. */
+static bool wants_irradiance_cache(const graze_trace_settings *s, const picture_settings *picture) {
+    return !s->samples && (double)picture->width * picture->height >= CACHE_PIXELS && s->error >= CACHE_ERROR;
 }
 
 static void find_planes(rendering *r) {
@@ -196,9 +227,20 @@ graze_status picture_render(image **out, const graze_scene *scene, const graze_t
         }
         r.trace.floor = fmax(r.trace.floor, PICTURE_FLOOR * mean);
     }
+    if (wants_irradiance_cache(trace, picture)) {
+        pilot p = make_pilot(&r);
+        const path_context context = {.scene = scene, .settings = &r.trace};
+        graze_status status = irradiance_cache_build(&r.cache, &context, pilot_hit, &p,
+                                                     (size_t)p.columns * (size_t)p.rows, picture->threads, report);
+        if (status != GRAZE_OK) {
+            image_destroy(r.image);
+            return status;
+        }
+    }
     r.progress = progress_start("rendering", picture->progress);
     parallel_for(picture->threads, (size_t)r.tiles_across * (size_t)r.tiles_down, render_tile, &r);
     progress_finish(r.progress);
+    irradiance_cache_destroy(r.cache);
     *unconverged = atomic_load(&r.unconverged);
     *out = r.image;
     return GRAZE_OK;

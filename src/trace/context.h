@@ -11,6 +11,9 @@
 typedef struct path_context {
     const graze_scene *scene;
     const graze_trace_settings *settings;
+    const struct irradiance_cache *cache; /* null: none */
+    struct irradiance_record
+        *record; /* not null: only where the path comes to by its first diffuse reflection is asked */
 } path_context;
 
 /* Whether the strategy looks for lights at all, or leaves them to reflections. */

@@ -26,7 +26,7 @@ enum { HALVES = 2, IN_HALF = ESTIMATE_REPLICATES / HALVES };
  * be biased towards what looks good. */
 typedef struct half {
     uint64_t key[IN_HALF];
-    rgb sum[IN_HALF];
+    rgb sum[IN_HALF], spread;
     path_control controls[PATH_CONTROLS][IN_HALF]; /* sums */
     path_control totals[PATH_CONTROLS];
     int control_count;
@@ -95,6 +95,8 @@ static double standard_error(double variance, double known) {
 }
 
 static void set_answer(graze_answer *answer, rgb mean, rgb variance, const half halves[HALVES]) {
+    rgb spread = rgb_scale(1.0 / (halves[0].taken + halves[1].taken), rgb_add(halves[0].spread, halves[1].spread));
+    variance = rgb_add(variance, rgb_multiply(spread, spread));
     rgb known = halves[0].control_count + halves[1].control_count > 0 ? mean : rgb_gray(0);
     answer->value = mean;
     answer->standard_error = (rgb){standard_error(variance.r, known.r), standard_error(variance.g, known.g),
@@ -139,6 +141,7 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     estimate_luck luck = ESTIMATE_NOISY;
     path_sample taken = sample(user, &points, &luck);
     h->sum[i] = rgb_add(h->sum[i], taken.radiance);
+    h->spread = rgb_add(h->spread, taken.spread);
     for (int k = 0; k < taken.control_count; k++) {
         add_control(&h->controls[k][i], &taken.controls[k]);
         add_control(&h->totals[k], &taken.controls[k]);

@@ -19,6 +19,7 @@ enum { PATH_FIRST_CONTROLS = 8, PATH_CONTROLS = PATH_FIRST_CONTROLS + 1 };
 
 typedef struct path_sample {
     rgb radiance;
+    rgb spread; /* half the difference of what the two irradiance caches say */
     path_control controls[PATH_CONTROLS];
     int control_count; /* the others are 0 */
     bool noisy;        /* random numbers were drawn: another sample may differ */
@@ -33,5 +34,8 @@ path_sample path_radiance(const path_context *, const path_hit *first, sampler *
 
 /* One sample of the irradiance on a sensor at `point`. */
 path_sample path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *);
+
+/* One sample of the irradiance at a record's point, on a path that has been reflected diffusely once. */
+path_sample path_irradiance_at(const path_context *, const struct irradiance_record *, sampler *);
 
 #endif

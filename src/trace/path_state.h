@@ -37,7 +37,7 @@ typedef struct known_lights {
 typedef struct path {
     const path_context *context;
     sampler *sampler;
-    rgb throughput, radiance;
+    rgb throughput, radiance, spread;
     int ambient_depth; /* diffuse reflections so far */
     int depth;         /* all reflections so far */
     bool scattered;    /* whether any of them was not a mirror's */
