@@ -13,6 +13,9 @@
  * samples. */
 #define PILOT_SIDE    64
 #define PILOT_SAMPLES 16
+/* Pictures of fewer pixels, and of smaller errors, need no irradiance cache. */
+#define CACHE_PIXELS 2048
+#define CACHE_ERROR  0.005
 
 /* Of one pixel, for the mean: one that does not know its own value must not stand for all. */
 #define LARGEST_ERROR 16.0
@@ -57,7 +60,8 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     *luck = sample_camera(&p->picture->settings, points, &at) ? ESTIMATE_PLACE : ESTIMATE_EXACT;
     if (!camera_ray(&p->picture->settings, p->column, p->row, &at, &ray))
         return (path_sample){.noisy = false};
-    path_context context = {.scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory};
+    path_context context = {
+        .scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory, .cache = p->picture->cache};
     path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     path_sample sample = path_radiance(&context, &first, points);
     if (sample.noisy)
@@ -135,35 +139,66 @@ typedef struct pilot {
     rgb *values;
 } pilot;
 
-static void sample_pilot(void *user, size_t index, int worker) {
-    (void)worker;
-    pilot *p = user;
-    if (is_stopped(p->picture))
-        return;
-    const picture_settings *s = &p->picture->settings;
-    int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
-    pixel at = {p->picture, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
-                NULL};
-    p->values[index] = estimate_pixel(&at, &p->trace, NULL).value;
-}
-
-static graze_status estimate_mean(const rendering *whole, double *mean, const graze_report *report) {
+static pilot make_pilot(const rendering *whole) {
     const picture_settings *s = &whole->settings;
     pilot p = {.picture = whole, .trace = whole->trace};
     p.columns = s->width < PILOT_SIDE ? s->width : PILOT_SIDE;
     p.rows = s->height < PILOT_SIDE ? s->height : PILOT_SIDE;
     p.trace.samples = PILOT_SAMPLES;
+    return p;
+}
+
+static pixel pilot_pixel(const pilot *p, size_t index) {
+    const picture_settings *s = &p->picture->settings;
+    int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
+    return (pixel){p->picture, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
+                   NULL};
+}
+
+static void sample_pilot(void *user, size_t index, int worker) {
+    (void)worker;
+    pilot *p = user;
+    if (is_stopped(p->picture))
+        return;
+    pixel at = pilot_pixel(p, index);
+    p->values[index] = estimate_pixel(&at, &p->trace, NULL).value;
+}
+
+static graze_status estimate_mean(const rendering *whole, double *mean, const graze_report *report) {
+    pilot p = make_pilot(whole);
     size_t count = (size_t)p.columns * (size_t)p.rows;
     p.values = malloc(count * sizeof *p.values);
     if (!p.values)
         return report_out_of_memory(report);
-    parallel_for(s->threads, count, sample_pilot, &p);
+    parallel_for(whole->settings.threads, count, sample_pilot, &p);
     rgb sum = {0, 0, 0};
     for (size_t i = 0; i < count; i++)
         sum = rgb_add(sum, p.values[i]);
     free(p.values);
     *mean = rgb_max(sum) / (double)count;
     return GRAZE_OK;
+}
+
+/* What the pilot paths of the irradiance cache meet first: the same pixels. */
+static path_hit pilot_hit(void *user, size_t index) {
+    const pilot *p = user;
+    const path_context context = {.scene = p->picture->scene, .settings = &p->picture->trace};
+    pixel at = pilot_pixel(p, index);
+    graze_ray ray;
+    if (is_stopped(p->picture) || !camera_ray(&p->picture->settings, at.column, at.row, &camera_center, &ray))
+        return (path_hit){.surface = -1, .light = -1};
+    return path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
+}
+
+/* The cache is for interreflections, in pictures large enough to make up for what it costs. */
+static graze_status build_cache(rendering *whole, const graze_report *report) {
+    const picture_settings *s = &whole->settings;
+    const path_context context = {.scene = whole->scene, .settings = &whole->trace};
+    if (whole->trace.samples || (double)s->width * s->height < CACHE_PIXELS || whole->trace.error < CACHE_ERROR)
+        return GRAZE_OK;
+    pilot p = make_pilot(whole);
+    return irradiance_cache_build(&whole->cache, &context, pilot_hit, &p, (size_t)p.columns * (size_t)p.rows,
+                                  s->threads, report);
 }
 
 graze_status picture_begin(rendering **out, const graze_scene *scene, const graze_trace_settings *trace,
@@ -193,6 +228,7 @@ graze_status picture_begin(rendering **out, const graze_scene *scene, const graz
 void picture_destroy(rendering *p) {
     if (!p)
         return;
+    irradiance_cache_destroy(p->cache);
     film_free(&p->film);
     free(p);
 }
@@ -206,6 +242,11 @@ graze_status picture_render(rendering *p, const graze_report *report) {
         p->trace.floor = fmax(p->trace.floor, PICTURE_FLOOR * mean);
     }
     atomic_store(&p->floor_known, true);
+    if (!p->cache) {
+        graze_status status = build_cache(p, report);
+        if (status != GRAZE_OK || is_stopped(p))
+            return status;
+    }
     parallel_for(p->settings.threads, order_count(&p->order), render_piece, p);
     return GRAZE_OK;
 }

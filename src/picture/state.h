@@ -4,6 +4,7 @@
 
 #include "picture/film.h"
 #include "picture/order.h"
+#include "trace/irradiance_cache.h"
 
 struct rendering {
     picture_settings settings;
@@ -11,6 +12,7 @@ struct rendering {
     atomic_bool floor_known;
     const graze_scene *scene;
     film film;
+    irradiance_cache *cache; /* null: none */
     order order;
     atomic_bool stopped;
     atomic_size_t finished, unconverged;

@@ -16,6 +16,8 @@ typedef struct path_context {
     const graze_trace_settings *settings;
     path_memory *memory;                  /* null where nothing is to be sampled */
     const struct path_observer *observer; /* is told of every ray (trace/observer.h); null: nobody is */
+    const struct irradiance_cache *cache; /* null: none */
+    struct irradiance_record *record;     /* not null: all that is asked is where the first diffuse reflection leads */
 } path_context;
 
 /* Whether the strategy looks for lights at all, or leaves them to reflections. */

@@ -38,6 +38,7 @@ typedef struct half {
     int control_count;
     bool with_parts;
     estimate_parts parts;                            /* sums */
+    rgb spread;                                      /* sum */
     double lit[PATH_CONTROLS], whole[PATH_CONTROLS]; /* sums of the controls' */
     rgb sum[BLOCKS];                                 /* those after the last block begun are not set */
     rgb difference[BLOCKS][PATH_CONTROLS];
@@ -90,6 +91,7 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     h->sum[block] = rgb_add(h->sum[block], taken.radiance);
     add_controls(h, block, &taken);
     h->integrated = h->integrated || taken.integrated;
+    h->spread = rgb_add(h->spread, taken.spread);
     h->luck = luck > h->luck ? luck : h->luck;
     if (h->with_parts) {
         h->parts.indirect = rgb_add(h->parts.indirect, taken.indirect);
@@ -253,6 +255,9 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
     double squares[HALVES] = {share[0] * share[0], share[1] * share[1]};
     rgb variance = variance_by(&e, (laws){squares[0] * first.slow + squares[1] * second.slow,
                                           squares[0] * first.fast + squares[1] * second.fast});
+    rgb spread = rgb_add_scaled(rgb_scale(share[0] / halves[0].taken, halves[0].spread), share[1] / halves[1].taken,
+                                halves[1].spread);
+    variance = rgb_add(variance, rgb_multiply(spread, spread));
     answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
     answer->standard_error = with_known_error(variance, answer->value, halves);
     answer->samples = halves[0].taken + halves[1].taken;
@@ -316,6 +321,7 @@ static void begin(half *h, uint64_t key, bool with_parts) {
     h->integrated = false;
     h->luck = ESTIMATE_EXACT;
     h->with_parts = with_parts;
+    h->spread = rgb_gray(0);
     h->parts = (estimate_parts){{0, 0, 0}, {0, 0, 0}};
 }
 

@@ -6,8 +6,10 @@
  * costs an ambient bounce. */
 #include "trace/path.h"
 
+#include "base/angle.h"
 #include "trace/direct_light.h"
 #include "trace/emission.h"
+#include "trace/irradiance_cache.h"
 #include "trace/known_light.h"
 #include "trace/lobes.h"
 #include "trace/observer.h"
@@ -23,6 +25,29 @@ static void add_ambient_value(path *p, const vertex *v) {
     observe_surface(p, found);
 }
 
+/* Whether what the path comes to by a diffuse reflection is told by the cache. What the surface reflects specularly is
+ * left of the vertex. True: nothing is. */
+static bool ends_in_cache(path *p, const path_hit *hit, vertex *v) {
+    const path_context *context = p->context;
+    bool wanted = context->cache || context->record;
+    if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
+        context->settings->ambient_bounces < 2 || v->no_ambient || v->gloss_is_ambient || v->shading.fresnel)
+        return false;
+    irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
+    rgb irradiance[2];
+    if (context->record) {
+        *context->record = record;
+        return true;
+    }
+    if (!irradiance_cache_find(context->cache, &record, irradiance))
+        return false;
+    rgb reflected = rgb_scale(0.5 / PI, rgb_multiply(p->throughput, v->shading.diffuse));
+    p->radiance = rgb_add(p->radiance, rgb_multiply(reflected, rgb_add(irradiance[0], irradiance[1])));
+    p->spread = rgb_add(p->spread, rgb_multiply(reflected, rgb_add_scaled(irradiance[0], -1, irradiance[1])));
+    v->shading.diffuse = v->ambient = rgb_gray(0);
+    return v->shading.specular_lobe == GRAZE_LOBE_NONE;
+}
+
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, vertex v) {
     const path_context *context = p->context;
@@ -35,7 +60,7 @@ static void follow(path *p, vertex v) {
         lobe_choice choice = lobes_choose(p, &v);
         direct_light_prepare(p, &v, &lights);
         p->known.lights = p->known.settled = 0;
-        if (light_choice_is_possible(&lights)) {
+        if (light_choice_is_possible(&lights) && !context->record) {
             if (!context->observer)
                 known_light_add(p, &v, &lights);
             direct_light_add(p, &v, &lights, choice);
@@ -53,7 +78,7 @@ static void follow(path *p, vertex v) {
             p->direct = p->radiance;
         if (p->known.lights)
             known_light_subtract_reflected(p, &v, &hit, found);
-        if (!vertex_at_hit(p, &hit, &v))
+        if (!vertex_at_hit(p, &hit, &v) || ends_in_cache(p, &hit, &v))
             return;
     }
 }
@@ -64,7 +89,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->throughput = (rgb){1, 1, 1};
-    p->radiance = p->ambient_light = p->albedo = (rgb){0, 0, 0};
+    p->radiance = p->spread = p->ambient_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
@@ -76,6 +101,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
 static path_sample path_end(const path *p, uint32_t first_group) {
     path_sample sample;
     sample.radiance = p->radiance;
+    sample.spread = p->spread;
     sample.control_count = p->control_count;
     sample.noisy = p->sampler->group != first_group;
     sample.searching = p->searching;
@@ -108,5 +134,14 @@ path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal
     path_start(&p, context, points);
     uint32_t first_group = points->group;
     follow(&p, vertex_of_sensor(point, normal));
+    return path_end(&p, first_group);
+}
+
+path_sample path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points) {
+    path p;
+    path_start(&p, context, points);
+    uint32_t first_group = points->group;
+    p.ambient_depth = 1;
+    follow(&p, vertex_of_point(record->point, record->normal, record->surface));
     return path_end(&p, first_group);
 }

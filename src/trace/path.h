@@ -19,6 +19,7 @@ enum { PATH_FIRST_CONTROLS = PATH_MEMORY_LIGHTS, PATH_CONTROLS = PATH_FIRST_CONT
 
 typedef struct path_sample {
     rgb radiance;
+    rgb spread;   /* half the difference of what the two halves of the irradiance cache say */
     rgb indirect; /* the part of it that was reflected more than once, mirrors not counted before the first point that
                      is none, or comes from the ambient value */
     rgb albedo;   /* reflectance of what was hit first: diffuse and specular, as seen from there; 1 with -i */
@@ -37,5 +38,8 @@ path_sample path_radiance(const path_context *, const path_hit *first, sampler *
 
 /* One sample of the irradiance on a sensor at `point`. */
 path_sample path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *);
+
+/* One sample of the irradiance at a record's point, on a path that has been reflected diffusely once. */
+path_sample path_irradiance_at(const path_context *, const struct irradiance_record *, sampler *);
 
 #endif

@@ -41,6 +41,7 @@ typedef struct path {
     const path_context *context;
     sampler *sampler;
     rgb throughput, radiance;
+    rgb spread; /* as in path_sample */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
     rgb albedo; /* of the first point */
     rgb ambient_light; /* of the ambient value, before the path scattered */

@@ -49,9 +49,12 @@ bool vertex_keep_part(vertex *v, graze_part part) {
     return part != GRAZE_MIRRORED || mirror;
 }
 
-vertex vertex_of_sensor(vec3 point, vec3 normal) {
-    vertex v = {
-        .point = vec3_add_scaled(point, SENSOR_HEIGHT, normal), .surface = -1, .shading = probe(normal, normal)};
+vertex vertex_of_point(vec3 point, vec3 normal, int surface) {
+    vertex v = {.point = point, .surface = surface, .shading = probe(normal, normal)};
     v.ambient = v.shading.diffuse;
     return v;
+}
+
+vertex vertex_of_sensor(vec3 point, vec3 normal) {
+    return vertex_of_point(vec3_add_scaled(point, SENSOR_HEIGHT, normal), normal, -1);
 }

@@ -13,4 +13,7 @@ bool vertex_keep_part(vertex *, graze_part);
 /* A sensor at `point`, a little above it: a Lambertian surface whose radiance is the irradiance there. */
 vertex vertex_of_sensor(vec3 point, vec3 normal);
 
+/* The same at a point of a surface. */
+vertex vertex_of_point(vec3 point, vec3 normal, int surface);
+
 #endif

@@ -1,0 +1,261 @@
+/* Cells of irradiance: from pilot paths' ends to averages, found by hashing. */
+#include "trace/irradiance_cache.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "base/parallel.h"
+#include "base/report.h"
+#include "trace/path.h"
+#include "trace/sampler.h"
+
+enum { CACHES = 2, PATHS_PER_PILOT = 16 };
+
+/* A cell's edge is at most this part of the distance that a path comes from, at an error of 0.03 and more; of smaller
+ * errors, a smaller one, so that what cells get wrong by being as large as they are stays small beside them: about a
+ * thousandth of the value at the largest part. */
+#define LARGEST_PART  0.25
+#define PART_OF_ERROR (LARGEST_PART / 0.03)
+
+/* Fewer pilot paths make no cell. */
+#define FEWEST_POINTS 4
+/* Not more of their ends are points to start from, from each as many times as the others, and together at least as
+ * often as this. A cell's own noise, a quarter of its value or so, is averaged over all cells that a pixel sees. */
+#define MOST_POINTS 16
+/* For smaller errors more, up to so many times. */
+#define MOST_PATHS            256
+#define ERROR_OF_FEWEST_PATHS 0.05
+
+/* Of what is in no cell. */
+#define NO_KEY UINT64_MAX
+/* Coordinates in edges of cells beyond which these cannot be told apart. */
+#define LARGEST_PLACE 0x1p50
+
+typedef struct cell {
+    uint64_t key;
+    size_t first, count; /* among the sorted records */
+    rgb irradiance;
+} cell;
+
+/* What a path has come to, by cell. */
+typedef struct keyed_record {
+    uint64_t key;
+    size_t order;
+    irradiance_record record;
+} keyed_record;
+
+typedef struct half_cache {
+    vec3 offset; /* of the grid, in edges of cells */
+    cell *cells;
+    size_t cell_count;
+    uint32_t *table; /* a cell's index + 1, or 0; by key */
+    size_t table_mask;
+} half_cache;
+
+struct irradiance_cache {
+    const graze_scene *scene;
+    double part;  /* of the distance, that a cell's edge is */
+    size_t paths; /* a cell */
+    half_cache halves[CACHES];
+};
+
+static uint64_t mixed(uint64_t a, uint64_t b) {
+    uint64_t x = (a ^ b * 0x9fb21c651e98df25u) * 0xd6e8feb86659fd93u;
+    return x ^ x >> 32;
+}
+
+/* Normals in one of 24 bins. */
+static uint64_t normal_bin(vec3 n) {
+    double ax = fabs(n.x), ay = fabs(n.y), az = fabs(n.z);
+    uint64_t axis = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+    uint64_t signs = (uint64_t)(n.x < -1e-9) | (uint64_t)(n.y < -1e-9) << 1 | (uint64_t)(n.z < -1e-9) << 2;
+    return axis << 3 | signs;
+}
+
+/* The cell about a point: of a surface that is large enough to fill it, or of all smaller ones together. */
+static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, const irradiance_record *record) {
+    int level;
+    (void)frexp(cache->part * record->distance, &level);
+    double edge = ldexp(0.5, level);
+    vec3 at = vec3_add_scaled(half->offset, 1 / edge, record->point);
+    if (!(vec3_max_abs(at) < LARGEST_PLACE))
+        return NO_KEY;
+    const shape *s = &cache->scene->shapes[record->surface];
+    bool large = s->kind == SHAPE_POLYGON && s->polygon.area >= edge * edge / 4;
+    uint64_t key = mixed((uint64_t)(int64_t)level, large ? (uint64_t)record->surface + 1 : 0);
+    key = mixed(key, (uint64_t)(int64_t)floor(at.x));
+    key = mixed(key, (uint64_t)(int64_t)floor(at.y));
+    key = mixed(key, (uint64_t)(int64_t)floor(at.z));
+    return mixed(key, normal_bin(record->normal));
+}
+
+static const cell *cell_of(const half_cache *half, uint64_t key) {
+    for (size_t i = key & half->table_mask; half->table[i] != 0; i = (i + 1) & half->table_mask)
+        if (half->cells[half->table[i] - 1].key == key)
+            return &half->cells[half->table[i] - 1];
+    return NULL;
+}
+
+bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_record *record, rgb found[2]) {
+    for (int i = 0; i < CACHES; i++) {
+        const cell *c = cell_of(&cache->halves[i], key_of(cache, &cache->halves[i], record));
+        if (!c)
+            return false;
+        found[i] = c->irradiance;
+    }
+    return true;
+}
+
+/* Pilot paths. */
+typedef struct pilot {
+    path_context context;
+    irradiance_cache *cache;
+    int half;
+    irradiance_pilot *first;
+    void *user;
+    keyed_record *records;
+} pilot;
+
+static void follow_pilot(void *user, size_t index, int worker) {
+    (void)worker;
+    pilot *p = user;
+    path_hit first = p->first(p->user, index);
+    for (size_t i = 0; i < PATHS_PER_PILOT; i++) {
+        keyed_record *r = &p->records[index * PATHS_PER_PILOT + i];
+        path_context context = p->context;
+        context.record = &r->record;
+        r->order = index * PATHS_PER_PILOT + i;
+        r->record.surface = -1;
+        uint64_t key = sampler_key(p->context.settings->seed, index, 0x1000000u + (uint32_t)p->half);
+        sampler points = sampler_start(key, (uint32_t)i);
+        (void)path_radiance(&context, &first, &points);
+        r->key = r->record.surface < 0 ? NO_KEY : key_of(p->cache, &p->cache->halves[p->half], &r->record);
+    }
+}
+
+static int compare_records(const void *a, const void *b) {
+    const keyed_record *p = a, *q = b;
+    return p->key != q->key ? (p->key < q->key ? -1 : 1) : p->order < q->order ? -1 : p->order > q->order;
+}
+
+static void find_cells(half_cache *half, const keyed_record *records, size_t count) {
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i; end < count && records[end].key == records[i].key; end++)
+            ;
+        if (records[i].key == NO_KEY || end - i < FEWEST_POINTS)
+            continue;
+        size_t points = end - i < MOST_POINTS ? end - i : MOST_POINTS;
+        half->cells[half->cell_count++] = (cell){records[i].key, i, points, {0, 0, 0}};
+    }
+}
+
+/* Filling cells. */
+typedef struct filling {
+    path_context context;
+    size_t paths;
+    half_cache *half;
+    const keyed_record *records;
+    uint32_t number;
+} filling;
+
+static void fill_cell(void *user, size_t index, int worker) {
+    (void)worker;
+    filling *f = user;
+    cell *c = &f->half->cells[index];
+    uint64_t key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number);
+    path_memory memory = {.alike = false};
+    path_context context = f->context;
+    context.memory = &memory;
+    for (size_t i = 0; i < f->paths; i++) {
+        const irradiance_record *r = &f->records[c->first + i % c->count].record;
+        sampler points = sampler_start(key, (uint32_t)i);
+        path_sample sample = path_irradiance_at(&context, r, &points);
+        rgb value = sample.radiance;
+        for (int k = 0; k < sample.control_count; k++)
+            value = rgb_add(value, sample.controls[k].difference);
+        c->irradiance = rgb_add_scaled(c->irradiance, 1.0 / (double)f->paths, value);
+    }
+}
+
+static bool make_table(half_cache *half) {
+    size_t size = 16;
+    while (size < 2 * half->cell_count)
+        size *= 2;
+    half->table = calloc(size, sizeof *half->table);
+    half->table_mask = size - 1;
+    if (!half->table)
+        return false;
+    for (size_t c = 0; c < half->cell_count; c++) {
+        size_t i = half->cells[c].key & half->table_mask;
+        while (half->table[i] != 0)
+            i = (i + 1) & half->table_mask;
+        half->table[i] = (uint32_t)c + 1;
+    }
+    return true;
+}
+
+static bool build_half(pilot *p, size_t count, int threads) {
+    half_cache *half = &p->cache->halves[p->half];
+    size_t records = count * PATHS_PER_PILOT;
+    p->records = malloc(records * sizeof *p->records);
+    half->cells = malloc(records / FEWEST_POINTS * sizeof *half->cells + sizeof *half->cells);
+    bool ok = p->records && half->cells;
+    if (ok) {
+        sampler numbers = sampler_start(sampler_key(p->context.settings->seed, 0, 0x3000000u + (uint32_t)p->half), 0);
+        double random[3];
+        sampler_3d(&numbers, random);
+        half->offset = (vec3){random[0], random[1], random[2]};
+        parallel_for(threads, count, follow_pilot, p);
+        qsort(p->records, records, sizeof *p->records, compare_records);
+        find_cells(half, p->records, records);
+        filling f = {p->context, p->cache->paths, half, p->records, (uint32_t)p->half};
+        parallel_for(threads, half->cell_count, fill_cell, &f);
+        ok = make_table(half);
+    }
+    free(p->records);
+    return ok;
+}
+
+/* Light that only luck finds would be in few cells, and too much of it; a limited number of reflections would be
+ * another where paths end early. */
+static bool is_of_use(const path_context *context) {
+    const graze_trace_settings *s = context->settings;
+    return s->ambient_bounces > 1 && context_samples_lights(s) && !context->scene->has_mirrors &&
+           s->reflection_limit == 0;
+}
+
+graze_status irradiance_cache_build(irradiance_cache **out, const path_context *context, irradiance_pilot *first,
+                                    void *user, size_t count, int threads, const graze_report *report) {
+    *out = NULL;
+    if (!is_of_use(context))
+        return GRAZE_OK;
+    irradiance_cache *cache = calloc(1, sizeof *cache);
+    if (!cache)
+        return report_out_of_memory(report);
+    cache->scene = context->scene;
+    cache->part = fmin(LARGEST_PART, PART_OF_ERROR * context->settings->error);
+    double more = ERROR_OF_FEWEST_PATHS / context->settings->error;
+    cache->paths = (size_t)fmin(fmax(more * more * MOST_POINTS, MOST_POINTS), MOST_PATHS);
+    for (int i = 0; i < CACHES; i++) {
+        pilot p = {.context = {.scene = context->scene, .settings = context->settings},
+                   .cache = cache,
+                   .half = i,
+                   .first = first,
+                   .user = user};
+        if (!build_half(&p, count, threads)) {
+            irradiance_cache_destroy(cache);
+            return report_out_of_memory(report);
+        }
+    }
+    *out = cache;
+    return GRAZE_OK;
+}
+
+void irradiance_cache_destroy(irradiance_cache *cache) {
+    for (int i = 0; cache && i < CACHES; i++) {
+        free(cache->halves[i].cells);
+        free(cache->halves[i].table);
+    }
+    free(cache);
+}

@@ -1,0 +1,190 @@
+/* The irradiance cache: the same on any number of threads, found where paths come to, and true. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/vector.h"
+#include "support/scene_text.h"
+#include "trace/irradiance_cache.h"
+#include "trace/path.h"
+
+/* A room of 4 x 4 x 3 with a window, a block on the floor, and a ball. */
+static const char room[] = "void plastic wall 0 0 5 .7 .7 .7 0 0\n"
+                           "void plastic dark 0 0 5 .2 .2 .2 0 0\n"
+                           "void plastic gloss 0 0 5 .5 .5 .5 .05 .1\n"
+                           "void glow sky 0 0 4 10 10 10 0\n"
+                           "dark polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n"
+                           "wall polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"
+                           "wall polygon south 0 0 12 0 0 0 0 0 3 4 0 3 4 0 0\n"
+                           "wall polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3\n"
+                           "wall polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
+                           "wall polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+                           "sky polygon window 0 0 12 .01 1 1 .01 3 1 .01 3 2.5 .01 1 2.5\n"
+                           "gloss polygon top 0 0 12 2 1 .8 3 1 .8 3 2 .8 2 2 .8\n"
+                           "wall polygon near 0 0 12 2 1 0 3 1 0 3 1 .8 2 1 .8\n"
+                           "wall polygon side 0 0 12 2 2 0 2 1 0 2 1 .8 2 2 .8\n"
+                           "gloss sphere ball 0 0 4 2.5 3 .4 .4\n";
+
+enum { SIDE = 32, PILOTS = SIDE * SIDE };
+
+typedef struct view {
+    path_context context;
+} view;
+
+static path_hit look(void *user, size_t index) {
+    const view *v = user;
+    double x = ((double)(index % SIDE) + 0.5) / SIDE - 0.5, y = ((double)(index / SIDE) + 0.5) / SIDE - 0.5;
+    vec3 direction = vec3_normalize((vec3){-0.3 + 1.2 * x, 1, -0.1 + 1.2 * y});
+    return path_cast(&v->context, (vec3){3.5, 0.2, 1.6}, direction, GEOMETRY_FAR, -1);
+}
+
+static graze_trace_settings bounces(int count) {
+    graze_trace_settings s = graze_trace_defaults();
+    s.ambient_bounces = count;
+    s.error = 0.05;
+    return s;
+}
+
+static irradiance_cache *build(view *v, int threads) {
+    irradiance_cache *cache;
+    assert_int_equal(irradiance_cache_build(&cache, &v->context, look, v, PILOTS, threads, NULL), GRAZE_OK);
+    return cache;
+}
+
+static irradiance_record come_to(const view *v, size_t pixel, uint32_t number) {
+    irradiance_record record = {.surface = -1};
+    path_context context = v->context;
+    context.record = &record;
+    path_hit first = look((void *)v, pixel);
+    sampler points = sampler_start(sampler_key(99, pixel, 0), number);
+    (void)path_radiance(&context, &first, &points);
+    return record;
+}
+
+static void threads_do_not_change_what_is_found(void **state) {
+    (void)state;
+    graze_trace_settings settings = bounces(3);
+    graze_scene *scene = scene_from_text(room);
+    view v = {{.scene = scene, .settings = &settings}};
+    irradiance_cache *one = build(&v, 1), *three = build(&v, 3);
+    int come = 0, found = 0;
+    for (size_t pixel = 0; pixel < PILOTS; pixel++) {
+        irradiance_record record = come_to(&v, pixel, 0);
+        rgb a[2], b[2];
+        if (record.surface < 0)
+            continue;
+        come++;
+        bool in_one = irradiance_cache_find(one, &record, a), in_three = irradiance_cache_find(three, &record, b);
+        assert_int_equal(in_one, in_three);
+        if (in_one)
+            assert_memory_equal(a, b, sizeof a);
+        found += in_one;
+    }
+    assert_true(come > PILOTS / 2);
+    /* A cache that knows nothing would pass all other tests. */
+    assert_true(found > come / 2);
+    irradiance_cache_destroy(one);
+    irradiance_cache_destroy(three);
+    graze_scene_destroy(scene);
+}
+
+/* The mean over the picture, and its error in the square, with and without the cache. */
+static double mean_brightness(const view *v, const irradiance_cache *cache, int samples, double *variance,
+                              double *spread) {
+    path_context context = v->context;
+    path_memory memory = {.alike = false};
+    context.cache = cache;
+    context.memory = &memory;
+    double total = 0, squares = 0, apart = 0;
+    for (size_t pixel = 0; pixel < PILOTS; pixel += 3) {
+        path_hit first = look((void *)v, pixel);
+        double sum = 0;
+        for (int i = 0; i < samples; i++) {
+            sampler points = sampler_start(sampler_key(cache ? 5 : 6, pixel * 1000 + (size_t)i, 0), 0);
+            path_sample sample = path_radiance(&context, &first, &points);
+            double found = sample.radiance.g;
+            for (int k = 0; k < sample.control_count; k++)
+                found += sample.controls[k].difference.g;
+            sum += found;
+            squares += found * found;
+            apart += sample.spread.g;
+        }
+        total += sum;
+        squares -= sum * sum / samples;
+    }
+    double count = (PILOTS + 2) / 3 * (double)samples;
+    *variance = squares / count / count;
+    *spread = apart / count;
+    return total / count;
+}
+
+static void the_cache_is_true(void **state) {
+    (void)state;
+    graze_trace_settings settings = bounces(3);
+    graze_scene *scene = scene_from_text(room);
+    view v = {{.scene = scene, .settings = &settings}};
+    irradiance_cache *cache = build(&v, 2);
+    double variance[2], spread[2];
+    double with = mean_brightness(&v, cache, 300, &variance[0], &spread[0]);
+    double without = mean_brightness(&v, NULL, 300, &variance[1], &spread[1]);
+    double error = sqrt(variance[0] + variance[1] + spread[0] * spread[0]);
+    assert_true(spread[1] == 0);
+    assert_true(spread[0] != 0 && fabs(spread[0]) < 0.005 * with);
+    /* Cells may be wrong by their size: by 0.2% of the value. */
+    if (fabs(with - without) > 3 * error + 0.002 * without)
+        fail_msg("%g with the cache, %g without, error %g", with, without, error);
+    irradiance_cache_destroy(cache);
+    graze_scene_destroy(scene);
+}
+
+static void there_is_none_where_it_is_of_no_use(void **state) {
+    (void)state;
+    graze_trace_settings settings = bounces(1);
+    graze_scene *scene = scene_from_text(room);
+    view v = {{.scene = scene, .settings = &settings}};
+    assert_null(build(&v, 1));
+    settings = bounces(3);
+    settings.strategy = GRAZE_STRATEGY_BRDF;
+    assert_null(build(&v, 1));
+    settings = bounces(3);
+    settings.reflection_limit = 5;
+    assert_null(build(&v, 1));
+    graze_scene_destroy(scene);
+}
+
+/* Points beside each other share a cell, those on the other side of a wall or far away do not, and places where cells
+ * are too small to be numbered are in none. */
+static void cells_are_where_paths_have_been(void **state) {
+    (void)state;
+    graze_trace_settings settings = bounces(3);
+    graze_scene *scene = scene_from_text(room);
+    view v = {{.scene = scene, .settings = &settings}};
+    irradiance_cache *cache = build(&v, 2);
+    rgb found[2];
+    irradiance_record on_floor = {{1.5, 2.5, 0}, {0, 0, 1}, 0, 3};
+    assert_true(irradiance_cache_find(cache, &on_floor, found));
+    irradiance_record below = on_floor, far = on_floor, close = on_floor;
+    below.normal.z = -1;
+    assert_false(irradiance_cache_find(cache, &below, found));
+    far.point = (vec3){1e300, 0, 0};
+    assert_false(irradiance_cache_find(cache, &far, found));
+    close.distance = 1e-300;
+    assert_false(irradiance_cache_find(cache, &close, found));
+    irradiance_cache_destroy(cache);
+    graze_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_do_not_change_what_is_found),
+        cmocka_unit_test(the_cache_is_true),
+        cmocka_unit_test(there_is_none_where_it_is_of_no_use),
+        cmocka_unit_test(cells_are_where_paths_have_been),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
