@@ -169,7 +169,7 @@ static void places(void **state) {
     assert_about(brdf_part_distance(&p), 2.9, 1e-15);
     p = part_within(1, 0, 1); /* on either side of 1, and of .5 */
     assert_about(brdf_part_distance(&p), .9, 1e-15);
-    p.a[0] = 1.1, p.a[2] = .9;
+    p.a[0] = 1.1, p.a[1] = -1, p.a[2] = .9;
     assert_about(brdf_part_distance(&p), .9, 1e-15);
     p = part_within(0, .5, 1);
     assert_true(brdf_part_side(&p) == 1);
