@@ -24,6 +24,16 @@ static const char *skip_blanks(const char *text) {
     return text + strspn(text, " \t");
 }
 
+static void write_primaries(const double primaries[8], FILE *out) {
+    fputs("PRIMARIES=", out);
+    for (int i = 0; i < 8; i++) {
+        char number[NUMBER_TEXT_SIZE];
+        number_print(number, 6, primaries[i]);
+        fprintf(out, " %s", number);
+    }
+    putc('\n', out);
+}
+
 static void write_header(const image *picture, FILE *out) {
     fputs("#?RADIANCE\n", out);
     if (picture->command && *skip_blanks(picture->command))
@@ -39,7 +49,9 @@ static void write_header(const image *picture, FILE *out) {
         number_print(number, 6, picture->pixel_aspect);
         write_line(out, "PIXASPECT= ", number);
     }
-    fputs("FORMAT=32-bit_rle_rgbe\n\n", out);
+    if (picture->primaries && !picture->xyz)
+        write_primaries(picture->primaries, out);
+    fprintf(out, "FORMAT=32-bit_rle_%s\n\n", picture->xyz ? "xyze" : "rgbe");
     fprintf(out, "-Y %8d +X %8d\n", picture->height, picture->width);
 }
 

@@ -2,6 +2,7 @@
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -19,6 +20,8 @@ typedef struct image {
     const char *view;        /* as behind `VIEW=`, or null */
     const char *command;     /* the command line that made it, or null */
     const char *software;    /* "Graze 0.1.0", or null */
+    bool xyz;                /* for image_write_hdr: R, G, B are CIE's X, Y, Z, with Y in cd/m^2 */
+    const double *primaries; /* for image_write_hdr: x and y of R, G, B and white; null: Radiance's */
     int frame;               /* its number in a sequence, 0 where it is in none */
     double display_exposure; /* factor that image_expose applies; 0: chosen by the picture */
     char *text;              /* what view, command and software of a picture read lie in; null for ours */

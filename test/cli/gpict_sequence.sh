@@ -101,6 +101,26 @@ check "-defaults can be read again" sh -c "$gpict @defaults -defaults | cmp - de
 # The command lines of rpict's users.
 accepted() { check "accepts $*" "$gpict" "${small[@]}" "$@" -o accepted.hdr room.rad; }
 accepted -i -u -bv -dt .1 -dc .5 -dj .9 -ds .2 -dr 1 -dp 256 -dv -ss 1 -st .1 -av .1 .1 .1 -aw 0 -ab 1 -ar 48 -aa .1 -ad 1536 -as 392
-accepted -dp 256 -ar 48 -ds .2 -dj .9 -dt .1 -dc .5 -dr 1 -ss 1 -st .1 -ab 2 -aa .1 -ad 1536 -as 392 -av 25 25 25 -lr 8 -lw 1e-4
+accepted -dp 256 -ar 48 -ms 1 -ds .2 -dj .9 -dt .1 -dc .5 -dr 1 -ss 1 -st .1 -ab 2 -aa .1 -ad 1536 -as 392 -av 25 25 25 -lr 8 -lw 1e-4
 accepted -pa 1 -pj .67 -pm 0 -pd 0 -ps 4 -pt .05 -t 0 -w+ -pRGB -vtv -vp 0 0 0 -vd 0 1 0 -vu 0 0 1 -vh 45 -vv 45 -vo 0 -va 0 -vs 0 -vl 0
+echo red >mods
+accepted -ae red -aE mods -ap photons 50 -am 1 -ac 100 -aC 4k -me 0 0 0 -ma .1 .1 .1 -mg .5 -ms 2 -cs 3 -cw 780 380 -f x.cal -e 'a=1;' -P server
+accepted -ai red -aI mods -PP pool -w- -lr -10 -n 2
+"$gpict" -x 4 -y 4 -e messages -ps 20 -t 1000 --samples 4 -o accepted.hdr room.rad 2>err
+check "-e takes all messages" sh -c "grep -q 'the spacing is 16' messages && grep -q ' paths, ' messages && test ! -s err"
+
+# Colours.
+for colors in XYZ "c .64 .33 .3 .6 .15 .06 .3127 .329"; do
+    # shellcheck disable=SC2086
+    "$gpict" "${small[@]}" -p$colors -o colors.hdr -o colors.exr -vh 40 -vv 40 room.rad
+    # shellcheck disable=SC2086
+    "$gpict" "${small[@]}" -p$colors -vh 40 -vv 40 room.rad >out.hdr
+    check "-p$colors: the same to standard output" test "$(tail -c 500 out.hdr | cksum)" = "$(tail -c 500 colors.hdr | cksum)"
+    case $colors in
+    XYZ) check "-pXYZ says so" grep -aqx 'FORMAT=32-bit_rle_xyze' colors.hdr ;;
+    *) check "-pc says so" grep -aqx 'PRIMARIES= 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329' colors.hdr ;;
+    esac
+    check "... and .exr has Radiance's" sh -c "oiiotool --info -v colors.exr | grep -q 'chromaticities: 0.64, 0.33, 0.29, 0.6'"
+done
+fails "-pY makes no picture" 1 "three colors" "" "$gpict" -pY room.rad
 plan

@@ -94,6 +94,21 @@ check "rpict takes the view" sh -c "rpict -vf p7.hdr -x 8 -y 8 room.oct 2>/dev/n
 check "pfilt filters it" sh -c "pfilt -x 32 -y 23 p7.hdr | getinfo -d | grep -q -- '-Y *23 +X *32'"
 check "ra_tiff converts it" sh -c "ra_tiff p7.hdr p.tif && test -s p.tif"
 check "pvalue reads it" sh -c "[ \$(pvalue -h -H p7.hdr | wc -l) = $((64 * 47)) ]"
+# Other colours, brought back to Radiance's by Radiance: RGBE's precision is 1/128 of the largest channel, twice.
+colors=(-vh 40 -vv 40 -x 32 -y 32 --samples 16)
+"$gpict" "${colors[@]}" -o rgb.hdr room.rad
+floats rgb.hdr >sharp
+for option in "-pXYZ" "-pc .64 .33 .3 .6 .15 .06 .3127 .329"; do
+    # shellcheck disable=SC2086
+    "$gpict" "${colors[@]}" $option -o other.hdr room.rad
+    ra_xyze -r -o other.hdr >back.hdr
+    floats back.hdr >a
+    check "$option: ra_xyze brings the colors back" "${PYTHON:-python3}" -c '
+import numpy as np
+a, b = (np.fromfile(f, np.float32).astype(float).reshape(-1, 3) for f in ("a", "sharp"))
+assert b.max() > 0.01
+assert (np.abs(a - b).max(1) <= 0.02 * b.max(1)).all(), np.abs(a - b).max()'
+done
 # Distances as pinterp wants them: the picture from where it was is itself.
 "$gpict" -vh 40 -vv 40 -x 64 -y 64 -pj 0 --samples 4 -z q.z -o q.hdr room.rad
 check "pinterp takes picture and distances" sh -c "pinterp -vf q.hdr -x 64 -y 64 -ff q.hdr q.z >r.hdr 2>/dev/null && pvalue -h -H -df q.hdr >a && pvalue -h -H -df r.hdr | cmp - a"

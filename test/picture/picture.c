@@ -118,7 +118,7 @@ static void ambient_value_is_indirect(void **state) {
     sitting_end(&dark);
 }
 
-/* A closed white box with a lamp: light goes round, and the lamp in a mirror is direct. */
+/* A closed ball with a lamp: light goes round; the lamp is bright in a mirror, directly. */
 static void light_that_goes_round_is_indirect(void **state) {
     (void)state;
     static const char box[] = "void plastic p 0 0 5 .5 .5 .5 0 0 p bubble walls 0 0 4 0 0 0 6\n"
@@ -134,8 +134,7 @@ static void light_that_goes_round_is_indirect(void **state) {
     trace.ambient_bounces = 3;
     sitting whole = sitting_of(box, &trace, &s);
     assert_parts_make_the_whole(&whole);
-    /* Without bounces there is direct light alone, but for what the mirror throws on the walls: for that there is the
-     * search that finds nothing at a mirror's direction. */
+    /* Bounces leave direct light as it is. */
     double direct = 0, alone = 0, brightest = 0, indirect = 0;
     for (int i = 0; i < PIXELS; i++) {
         direct += plane(&whole, "direct.R")[i];

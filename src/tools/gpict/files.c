@@ -121,17 +121,50 @@ static void note(graze_status *worst, graze_status status) {
     *worst = status > *worst ? status : *worst;
 }
 
+/* Radiance's format in the colours of -p, which others do not know: they have Radiance's own. */
+static graze_status write_hdr(const image *picture, const char *file, const output_color_option *colors,
+                              const graze_report *report) {
+    const output_color color = output_color_prepare(colors);
+    image *converted = image_create(picture->width, picture->height, 3, NULL);
+    if (!converted)
+        return report_out_of_memory(report);
+    size_t count = (size_t)picture->width * (size_t)picture->height;
+    for (size_t i = 0; i < count; i++) {
+        double value[3];
+        output_color_value(&color, (rgb){picture->channels[0][i], picture->channels[1][i], picture->channels[2][i]},
+                           value);
+        for (int c = 0; c < 3; c++)
+            converted->channels[c][i] = number_to_float(value[c]);
+    }
+    converted->pixel_aspect = picture->pixel_aspect;
+    converted->view = picture->view;
+    converted->command = picture->command;
+    converted->software = picture->software;
+    converted->frame = picture->frame;
+    converted->xyz = color.space == OUTPUT_XYZ;
+    converted->primaries = color.primaries;
+    graze_status status =
+        file ? image_write(converted, file, report) : image_write_hdr(converted, stdout, "standard output", report);
+    image_destroy(converted);
+    return status;
+}
+
 graze_status files_write(const picture_files *f, const gpict_options *o, const image *picture,
                          const graze_report *report) {
     graze_status worst = GRAZE_OK;
-    for (int i = 0; i < f->count; i++)
-        note(&worst, image_write(picture, f->pictures[i], report));
+    bool own = o->render.color.space != OUTPUT_RGB;
+    for (int i = 0; i < f->count; i++) {
+        const char *file = f->pictures[i];
+        bool hdr = own && image_format_of(file) == IMAGE_FORMAT_HDR;
+        note(&worst, hdr ? write_hdr(picture, file, &o->render.color, report) : image_write(picture, file, report));
+    }
     if (f->contours)
         note(&worst, image_write_contours(picture, f->contours, o->contours_per_decade, report));
     if (f->depth)
         note(&worst, depth_file_write(image_channel(picture, "depth.Z"),
                                       (size_t)picture->width * (size_t)picture->height, f->depth, report));
     if (f->count == 0 && !f->contours)
-        note(&worst, image_write_hdr(picture, stdout, "standard output", report));
+        note(&worst, own ? write_hdr(picture, NULL, &o->render.color, report)
+                         : image_write_hdr(picture, stdout, "standard output", report));
     return worst;
 }
