@@ -68,8 +68,7 @@ light_sample light_draw(const graze_scene *scene, vec3 point, int index, const d
     return sample;
 }
 
-double light_density(const graze_scene *scene, vec3 point, int index, vec3 direction, vec3 hit_point,
-                     vec3 hit_normal) {
+double light_density(const graze_scene *scene, vec3 point, int index, vec3 direction, vec3 hit_point, vec3 hit_normal) {
     const scene_light *light = &scene->lights[index];
     if (light->shape)
         return solid_angle_density(light->shape, point, direction, hit_point, hit_normal);

@@ -90,11 +90,11 @@ bool light_choice_is_possible(const light_choice *choice) {
 
 double light_expectation(const light_choice *choice, int light) {
     const light_tree *tree = choice->tree;
-    int index = tree->group_of[light];
-    if (choice->root.candidates == 0 || index < 0)
+    if (choice->root.candidates == 0 || tree->group_of[light] < 0)
         return 0;
     if (choice->receiver.draws == 0)
         return (double)choice->root.of[light];
+    int index = tree->group_of[light];
     size_t entry = tree->entry_of[light];
     double probability = 1;
     while (index != 0) {
