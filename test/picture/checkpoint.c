@@ -37,15 +37,13 @@ static written_file new_file(void) {
     return file;
 }
 
-static void a_picture_goes_on_to_the_same_bytes(void **state) {
-    (void)state;
-    graze_trace_settings trace = slow();
-    picture_settings s = room_settings();
-    sitting whole = sitting_of(room, &trace, &s);
-    static const size_t moments[] = {0, 1, 100, 700, PIXELS};
+static void check_going_on(const char *text, graze_trace_settings trace, picture_settings s) {
+    sitting whole = sitting_of(text, &trace, &s);
+    size_t pixels = (size_t)s.width * (size_t)s.height;
+    const size_t moments[] = {0, 1, pixels / 12, pixels / 2, pixels};
     for (size_t i = 0; i < sizeof moments / sizeof *moments; i++) {
         written_file file = new_file();
-        sitting first = sitting_begin(room, &trace, &s);
+        sitting first = sitting_begin(text, &trace, &s);
         write_under_way(&first, moments[i], file.name);
         checkpoint *read;
         messages[0] = 0;
@@ -53,7 +51,7 @@ static void a_picture_goes_on_to_the_same_bytes(void **state) {
         assert_string_equal(checkpoint_command(read), labels.command);
         picture_settings begun = {.threads = 3, .jitter = 1, .spacing = 8, .content = PICTURE_LAYERS};
         checkpoint_settings(read, &begun);
-        sitting second = sitting_begin(room, &trace, &begun);
+        sitting second = sitting_begin(text, &trace, &begun);
         assert_int_equal(checkpoint_resume(read, second.picture, labels.question, &remembering), GRAZE_OK);
         assert_true(picture_look(second.picture).finished >= moments[i]);
         checkpoint_destroy(read);
@@ -69,6 +67,25 @@ static void a_picture_goes_on_to_the_same_bytes(void **state) {
         sitting_end(&second);
     }
     sitting_end(&whole);
+}
+
+static void a_picture_goes_on_to_the_same_bytes(void **state) {
+    (void)state;
+    check_going_on(room, slow(), room_settings());
+}
+
+/* What was found out before the first pixel is found out again: a picture large enough for an irradiance cache. */
+static void a_picture_of_interreflections_goes_on_to_the_same_bytes(void **state) {
+    (void)state;
+    static const char box[] = "void plastic p 0 0 5 .5 .5 .5 0 0 p bubble walls 0 0 4 0 0 0 6\n"
+                              "void light l 0 0 3 9 9 9 l sphere lamp 0 0 4 0 3 1 .3\n";
+    graze_trace_settings trace = slow();
+    picture_settings s = room_settings();
+    trace.error = 0.2;
+    trace.ambient_bounces = 2;
+    s.width = 64;
+    s.height = 48;
+    check_going_on(box, trace, s);
 }
 
 /* Views' bits survive, where printing them would not. */
@@ -226,6 +243,7 @@ static void a_preview_is_filled_in(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_picture_goes_on_to_the_same_bytes),
+        cmocka_unit_test(a_picture_of_interreflections_goes_on_to_the_same_bytes),
         cmocka_unit_test(the_view_is_the_same_to_the_last_bit),
         cmocka_unit_test(other_questions_are_refused),
         cmocka_unit_test(damaged_files_are_refused),
