@@ -48,7 +48,7 @@ typedef struct graze_trace_settings {
     int reflection_limit;      /* -lr: > 0: no more reflections than this before a light; 0: roulette; < 0: both */
     double minimum_weight;     /* -lw: below this weight paths are dropped (reflection_limit > 0) or play roulette */
     double specular_threshold; /* -st: rough lobes up to this specularity, 0 .. 1, are diffuse for indirect light */
-    double error;              /* stop when the standard error is error x value or less; > 0 */
+    double error;              /* stop when the standard error is about error x value or less; > 0 */
     double floor;              /* ... or below error x floor, in the unit of the value; >= 0 */
     uint32_t samples;          /* not 0: exactly this many paths (but 1 where all paths are equal); powers of 2 serve
                                   best; 1 leaves the standard error unknown */
@@ -103,7 +103,7 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  *
  * Samples come in two halves. Each goes on until the other has found that the answer will have the error asked for:
  * a half that judged itself would stop where it happens to agree with itself, and be wrong more often than it says.
- * Last, both together must state it.
+ * What both together state is then mostly below the error asked for, and at most 1.5 times it if `converged`.
  *
  * What unshadowed lights throw directly on the first point that is no mirror is integrated rather than sampled
  * (graze/brdf_light.h). A light that is found to be seen wholly from there, or not at all, is not sampled; where all

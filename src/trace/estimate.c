@@ -286,12 +286,16 @@ static bool is_enough(const graze_trace_settings *s, const half *judge, const fi
     return rgb_max(variance) / HALVES <= allowed * allowed;
 }
 
+/* What both together may state, of the error asked for. Asking it of each answer would have samples judge themselves
+ * again: at --error .05 scenes/bench/office.rad comes out 0.17% too dark with 1, and true to 0.03% with this. */
+#define STATED 1.5
+
 static bool is_stated(const graze_trace_settings *s, const graze_answer *answer) {
-    return rgb_max(answer->standard_error) <= s->error * fmax(rgb_max(answer->value), s->floor);
+    return rgb_max(answer->standard_error) <= STATED * s->error * fmax(rgb_max(answer->value), s->floor);
 }
 
-/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. In the end both
- * together must say so, too, or all begins again. */
+/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. Where both
+ * together then state much more than the error asked for, all begins again. */
 static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
     uint32_t limit = s->sample_limit / HALVES;

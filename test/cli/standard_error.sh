@@ -49,7 +49,7 @@ for stop in '--error .02' '--samples 1024'; do
     # shellcheck disable=SC2086
     {
         honest "two bounces, $stop" "$corner" $stop -I -ab 2 box.rad
-        honest "sun and sky, $stop" '1 1 .5 0 -1 0' $stop -I -ab 1 sky.rad
+        TIMES=3 honest "sun and sky, $stop" '1 1 .5 0 -1 0' $stop -I -ab 1 sky.rad
         honest "grazing plane, by reflection, $stop" '0 0 .1 0.004 0.9999 -0.012' $stop --strategy brdf grazing.rad
     }
 done

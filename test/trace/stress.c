@@ -158,15 +158,17 @@ static void show_tally(int kind, int strategy, const tally *t) {
             (double)t->within_two / t->count, t->above, t->bias / t->count, t->bias / sqrt(t->bias_square + 1e-100));
 }
 
-/* Where a strategy finds all there is with few samples, differences are distributed as their errors say; elsewhere only
- * their mean is: it is 0 however rare the light. Nothing but chance makes another strategy's answer larger than that of
- * `mis` by many errors. */
+/* Where a strategy finds all there is with few samples, differences are distributed as their errors say, which are
+ * stated for 95% intervals and are the larger the less is known of them: with few samples of what is smooth, more than
+ * 68% lie within one, but not nearly all. Elsewhere only their mean is: it is 0 however rare the light. Nothing but
+ * chance makes another strategy's answer larger than that of `mis` by many errors. */
 static bool is_distributed(int kind, int strategy, const tally *t) {
     if (fabs(t->bias) > 3.5 * sqrt(t->bias_square) || t->above > 1 + t->count / 1000)
         return false;
     if (strategy == GRAZE_STRATEGY_BRDF || kind == RANDOM_SHARP_GLOSS)
         return true;
-    return fabs((double)t->within_one / t->count - 0.68) < 0.03 && (double)t->within_two / t->count > 0.93;
+    double one = (double)t->within_one / t->count, two = (double)t->within_two / t->count;
+    return one > 0.65 && one < 0.84 && two > 0.93 && two < 0.995;
 }
 
 static void strategies_agree(void **state) {
