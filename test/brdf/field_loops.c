@@ -24,7 +24,7 @@ static void exponential(void **state) {
     assert_true(field_exp(0) == 1);
     static const double beyond[] = {-60.0001, -60.5, -1000, -1e300, -INFINITY};
     for (int i = 0; i < 5; ++i)
-        assert_true(field_exp(beyond[i]) == field_exp(-60));
+        assert_true(fabs(field_exp(beyond[i]) / exp(-60) - 1) < 2e-12);
 }
 
 /* erfc is as precise as exp(y^2), to 1e-14, as far as 7.5. */
@@ -37,7 +37,8 @@ static void complement(void **state) {
     }
     if (!(worst <= 2e-12 && worst > 1e-12))
         fail_msg("complements are %g off", worst);
-    assert_true(field_erfcx(1.1) == field_erfcx(1) && field_erfcx(1.8) == field_erfcx(1));
+    double last = exp(7.5 * 7.5) * erfc(7.5);
+    assert_true(fabs(field_erfcx(1.1) / last - 1) < 3e-12 && fabs(field_erfcx(1.8) / last - 1) < 3e-12);
 }
 
 static void gauss_rules(void **state) {
