@@ -105,12 +105,17 @@ void known_light_add(path *p, const vertex *v, const light_choice *lights) {
 bool known_light_is_all(const path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     /* Glows that are not sampled are found by reflection alone. */
-    if (lights->receiver.draws > 0 || p->known.settled == 0 || v->shading.specular_lobe == GRAZE_LOBE_MIRROR ||
-        !context_samples_glows(p->context->settings))
+    if (!context_samples_glows(p->context->settings) || v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
         return false;
-    for (int i = 0; i < (int)scene->light_count; i++)
-        if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
+    if (light_choice_is_possible(lights)) {
+        if (lights->receiver.draws > 0 || p->known.settled == 0)
             return false;
+        for (int i = 0; i < (int)scene->light_count; i++)
+            if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
+                return false;
+    } else if (p->depth > 0) {
+        return false; /* not worth the question */
+    }
     return !geometry_reflects_above(scene->geometry, v->point, v->shading.n, v->surface);
 }
 

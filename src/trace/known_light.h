@@ -10,7 +10,7 @@ bool known_light_is(const path *, int light);
 /* Whether it has been added, and must not be found in other ways. */
 bool known_light_is_settled(const path *, int light);
 
-/* Whether the lights are all that could be reflected at the vertex, and all of them are settled. */
+/* Whether the lights are all that could be reflected at the vertex, and all of them are settled or shine elsewhere. */
 bool known_light_is_all(const path *, const vertex *, const light_choice *);
 
 /* Adds what is known of the lights' light at a vertex, and remembers of which. */

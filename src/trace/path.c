@@ -64,9 +64,9 @@ static void follow(path *p, vertex v) {
             if (!context->observer)
                 known_light_add(p, &v, &lights);
             direct_light_add(p, &v, &lights, choice);
-            if (known_light_is_all(p, &v, &lights))
-                return;
         }
+        if (!context->observer && known_light_is_all(p, &v, &lights))
+            return;
         vec3 direction;
         if (!lobes_reflect(p, &v, &lights, choice, &direction))
             return;

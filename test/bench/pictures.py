@@ -12,10 +12,10 @@ serves Radiance better than `rtrace -n`, whose pipe costs more than cheap rays d
 all of it, from reading the scene to writing the layers of the EXR file.
 
 The error. With r the reference's and a the answer's luminance, m the mean of r, the relative mean squared error is the mean of
-(a - r)^2 / (r^2 + (0.05 m)^2): a dark pixel counts no more than by its part of the picture's mean. Pixels that no random number
-touches, lamps and what no light reaches, are left out of it and of m: those in which two references are equal to the bit. The
-error of the reference, known from its two halves, is subtracted. `worst 1%` is the share in it of the worst pixels, large where
-fireflies decide; `bias` is that of the picture's mean.
+(a - r)^2 / (r^2 + (0.05 m)^2): a dark pixel counts no more than by its part of the picture's mean. Pixels that show lamps or
+nothing are left out of it and of m. The error of the reference, known from its two halves, is subtracted. Nobody sees an error of
+less than 0.1%: it counts as that, so that pictures which gpict integrates without sampling are not infinitely better. `worst 1%`
+is the share in it of the worst pixels, large where fireflies decide; `bias` is that of the picture's mean.
 
 The constant is error x seconds: where errors fall as with independent samples, it does not depend on how many there are.
 """
@@ -38,7 +38,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GPICT = os.environ["BIN"] + "/gpict"
+GPICT, GTRACE = os.environ["BIN"] + "/gpict", os.environ["BIN"] + "/gtrace"
 PYRADIANCE = glob.glob(os.environ["GRAZE_PEER"] + "/lib/python3*/site-packages/pyradiance")[0]
 CACHE, OUT = ROOT + "/build/bench-cache", ROOT + "/out/bench"
 RUNS = int(os.environ.get("RUNS", "3"))
@@ -46,6 +46,7 @@ CORES = os.cpu_count()
 
 BRIGHTNESS = np.array([0.265, 0.670, 0.065])
 FLOOR = 0.05
+LEAST_ERROR = 1e-6
 # What has a curve of its own, in the order of their colours; not every scene has the last.
 KINDS = ("gpict --samples", "gpict --error", "rtrace", "rtrace (glow)")
 GOAL, GOAL_OF_OFFICE, GOAL_OF_MEAN = 10, 50, 30
@@ -172,6 +173,10 @@ class Place:
         side = str(scene.side)
         vwrays = ["vwrays", "-fd", "-pa", "0", "-x", side, "-y", side, "-vf", self.view]
         rays = subprocess.run(vwrays, stdout=subprocess.PIPE, check=True).stdout
+        command = [GTRACE, "-h", "-fda", "-oM", self.file]
+        materials = subprocess.run(command, input=rays, stdout=subprocess.PIPE, check=True).stdout.decode().split()
+        lamps = re.findall(r"^void (?:light|glow) (\w+)", self.text, flags=re.MULTILINE)
+        self.lit = ~np.isin(materials, [*lamps, "*", "void"]).reshape(scene.side, scene.side)
         rays = np.frombuffer(rays, "f8").reshape(scene.side, scene.side, 6)
         self.shares = [f"{base}.{core}.rays" for core in range(CORES)]
         for core, share in enumerate(self.shares):
@@ -222,7 +227,7 @@ class Place:
     def reference(self):
         settings = f"--samples {self.scene.reference}"
         halves = [self.cached(f"gpict {settings} --seed {s}", lambda s=s: self.gpict(settings, s)) for s in (1001, 1002)]
-        return Reference(*halves)
+        return Reference(self.lit, *halves)
 
     def print_agreement(self):
         """Whether Radiance's own limit is the reference: a wrong scene, view or exposure would show here."""
@@ -234,9 +239,9 @@ class Place:
 
 
 class Reference:
-    def __init__(self, first, second):
-        self.touched = first != second
-        halves = first[self.touched], second[self.touched]
+    def __init__(self, lit, first, second):
+        self.lit = lit
+        halves = first[lit], second[lit]
         self.values = (halves[0] + halves[1]) / 2
         self.mean = self.values.mean()
         self.weights = 1 / (self.values**2 + (FLOOR * self.mean) ** 2)
@@ -244,9 +249,9 @@ class Reference:
 
     def compare(self, picture):
         """The relative mean squared error, the bias, and the share of the worst hundredth of the pixels in the error."""
-        values = picture[self.touched]
+        values = picture[self.lit]
         squares = self.weights * (values - self.values) ** 2
-        worst = np.sort(squares)[-(len(squares) // 100) :].sum() / squares.sum()
+        worst = np.sort(squares)[-(len(squares) // 100) :].sum() / max(squares.sum(), 1e-300)
         return squares.mean() - self.own, values.mean() / self.mean - 1, worst
 
 
@@ -271,7 +276,7 @@ class Contender:
     def finish(self):
         self.wall, self.cpu = statistics.median(self.walls), statistics.median(self.cpus)
         # An error that the reference cannot tell from its own counts as its own.
-        self.error = max(statistics.mean(self.errors), self.place.reference.own)
+        self.error = max(statistics.mean(self.errors), self.place.reference.own, LEAST_ERROR)
 
     def print(self):
         print(f"  {self.program + (' glow ' if self.place.glow else ' ') + (self.settings or '(defaults)'):46s}"
@@ -280,12 +285,15 @@ class Contender:
 
 
 def seconds_for(error, contenders):
-    """How long gpict takes for the error, between the settings that were measured; never less than the fastest of them."""
-    curve = sorted((c.error, c.wall) for c in contenders)
-    errors, walls = np.log(np.array(curve)).T
-    if error < curve[0][0]:
-        return curve[0][1] * curve[0][0] / error
-    return float(np.exp(np.interp(np.log(error), errors, walls)))
+    """How long gpict takes for the error or less: between the settings that were measured, and as its constants tell beyond."""
+    curve = sorted(((c.wall, c.error) for c in contenders), key=lambda point: point[0])
+    if error < curve[-1][1]:
+        return min(wall * found / error for wall, found in curve)
+    for (faster, more), (slower, less) in zip(curve, curve[1:]):
+        if less <= error < more:
+            part = np.log(more / error) / np.log(more / less)
+            return float(np.exp((1 - part) * np.log(faster) + part * np.log(slower)))
+    return curve[0][0]
 
 
 def bench(scene, folder):
