@@ -72,7 +72,7 @@ static void begin_controls(path *p, int count) {
 void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, 0, p->depth > 0};
-    if (lights->receiver.draws > 0 || p->scattered)
+    if (lights->receiver.draws > 0 || p->scattered || p->context->settings->samples == 1)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
