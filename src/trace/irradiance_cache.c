@@ -34,7 +34,8 @@ enum { CACHES = 2, PATHS_PER_PILOT = 16 };
 
 typedef struct cell {
     uint64_t key;
-    size_t first, count; /* among the sorted records */
+    size_t first, count, all; /* among the sorted records: those to start from, and all */
+    bool whole;               /* all are in one place */
     rgb irradiance;
 } cell;
 
@@ -73,17 +74,22 @@ static uint64_t normal_bin(vec3 n) {
     return axis << 3 | signs;
 }
 
+/* A power of 2. */
+static double cell_edge(const irradiance_cache *cache, double distance) {
+    int exponent;
+    (void)frexp(cache->part * distance, &exponent);
+    return ldexp(0.5, exponent);
+}
+
 /* The cell about a point: of a surface that is large enough to fill it, or of all smaller ones together. */
 static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, const irradiance_record *record) {
-    int level;
-    (void)frexp(cache->part * record->distance, &level);
-    double edge = ldexp(0.5, level);
+    double edge = cell_edge(cache, record->distance);
     vec3 at = vec3_add_scaled(half->offset, 1 / edge, record->point);
     if (!(vec3_max_abs(at) < LARGEST_PLACE))
         return NO_KEY;
     const shape *s = &cache->scene->shapes[record->surface];
     bool large = s->kind == SHAPE_POLYGON && s->polygon.area >= edge * edge / 4;
-    uint64_t key = mixed((uint64_t)(int64_t)level, large ? (uint64_t)record->surface + 1 : 0);
+    uint64_t key = mixed((uint64_t)(int64_t)ilogb(edge), large ? (uint64_t)record->surface + 1 : 0);
     key = mixed(key, (uint64_t)(int64_t)floor(at.x));
     key = mixed(key, (uint64_t)(int64_t)floor(at.y));
     key = mixed(key, (uint64_t)(int64_t)floor(at.z));
@@ -146,35 +152,57 @@ static void find_cells(half_cache *half, const keyed_record *records, size_t cou
         if (records[i].key == NO_KEY || end - i < FEWEST_POINTS)
             continue;
         size_t points = end - i < MOST_POINTS ? end - i : MOST_POINTS;
-        half->cells[half->cell_count++] = (cell){records[i].key, i, points, {0, 0, 0}};
+        half->cells[half->cell_count++] = (cell){.key = records[i].key, .first = i, .count = points, .all = end - i};
     }
 }
 
 /* Filling cells. */
 typedef struct filling {
     path_context context;
-    size_t paths;
+    const irradiance_cache *cache;
     half_cache *half;
     const keyed_record *records;
     uint32_t number;
 } filling;
 
+/* Points are lifted by this part of a cell's edge to see each other. */
+#define LIFT 0.0625
+
+/* Whether nothing stands between the points that paths have come to: a wall that divides a cell keeps light from one
+ * side that the other has. */
+static bool is_in_one_place(const filling *f, const cell *c) {
+    const irradiance_record *first = &f->records[c->first].record;
+    double lift = LIFT * cell_edge(f->cache, first->distance);
+    vec3 from = vec3_add_scaled(first->point, lift, first->normal);
+    for (size_t i = 1; i < c->all; i++) {
+        const irradiance_record *other = &f->records[c->first + i].record;
+        vec3 way = vec3_subtract(vec3_add_scaled(other->point, lift, other->normal), from);
+        geometry_ray ray = {.origin = from, .direction = vec3_safe_normalize(way), .far = vec3_length(way), .from = -1};
+        if (ray.far > 0 && geometry_occluded(f->context.scene->geometry, &ray, -1))
+            return false;
+    }
+    return true;
+}
+
 static void fill_cell(void *user, size_t index, int worker) {
     (void)worker;
     filling *f = user;
     cell *c = &f->half->cells[index];
+    c->whole = is_in_one_place(f, c);
+    if (!c->whole)
+        return;
     uint64_t key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number);
     path_memory memory = {.alike = false};
     path_context context = f->context;
     context.memory = &memory;
-    for (size_t i = 0; i < f->paths; i++) {
+    for (size_t i = 0; i < f->cache->paths; i++) {
         const irradiance_record *r = &f->records[c->first + i % c->count].record;
         sampler points = sampler_start(key, (uint32_t)i);
         path_sample sample = path_irradiance_at(&context, r, &points);
         rgb value = sample.radiance;
         for (int k = 0; k < sample.control_count; k++)
             value = rgb_add(value, sample.controls[k].difference);
-        c->irradiance = rgb_add_scaled(c->irradiance, 1.0 / (double)f->paths, value);
+        c->irradiance = rgb_add_scaled(c->irradiance, 1.0 / (double)f->cache->paths, value);
     }
 }
 
@@ -187,6 +215,8 @@ static bool make_table(half_cache *half) {
     if (!half->table)
         return false;
     for (size_t c = 0; c < half->cell_count; c++) {
+        if (!half->cells[c].whole)
+            continue;
         size_t i = half->cells[c].key & half->table_mask;
         while (half->table[i] != 0)
             i = (i + 1) & half->table_mask;
@@ -209,7 +239,7 @@ static bool build_half(pilot *p, size_t count, int threads) {
         parallel_for(threads, count, follow_pilot, p);
         qsort(p->records, records, sizeof *p->records, compare_records);
         find_cells(half, p->records, records);
-        filling f = {p->context, p->cache->paths, half, p->records, (uint32_t)p->half};
+        filling f = {p->context, p->cache, half, p->records, (uint32_t)p->half};
         parallel_for(threads, half->cell_count, fill_cell, &f);
         ok = make_table(half);
     }

@@ -179,12 +179,59 @@ static void cells_are_where_paths_have_been(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* Two rooms on one floor, the wall between them 10 cm thick, one twenty times as bright as the other. */
+static const char rooms[] = "void plastic white 0 0 5 .7 .7 .7 0 0\n"
+                            "void light lamp 0 0 3 100 100 100\n"
+                            "void light faint 0 0 3 5 5 5\n"
+                            "white polygon floor 0 0 12 0 0 0 8.1 0 0 8.1 4 0 0 4 0\n"
+                            "white polygon top 0 0 12 0 0 3 0 4 3 8.1 4 3 8.1 0 3\n"
+                            "white polygon south 0 0 12 0 0 0 0 0 3 8.1 0 3 8.1 0 0\n"
+                            "white polygon north 0 0 12 0 4 0 8.1 4 0 8.1 4 3 0 4 3\n"
+                            "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
+                            "white polygon east 0 0 12 8.1 0 0 8.1 0 3 8.1 4 3 8.1 4 0\n"
+                            "white polygon near 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+                            "white polygon far 0 0 12 4.1 0 0 4.1 4 0 4.1 4 3 4.1 0 3\n"
+                            "lamp polygon la 0 0 12 1.5 1.5 2.99 1.5 2.5 2.99 2.5 2.5 2.99 2.5 1.5 2.99\n"
+                            "faint polygon lb 0 0 12 5.5 1.5 2.99 5.5 2.5 2.99 6.5 2.5 2.99 6.5 1.5 2.99\n";
+
+static path_hit look_down(void *user, size_t index) {
+    const view *v = user;
+    double x = ((double)(index % SIDE) + 0.5) / SIDE, y = ((double)(index / SIDE) + 0.5) / SIDE;
+    return path_cast(&v->context, (vec3){8.1 * x, 4 * y, 2.5}, (vec3){0, 0, -1}, GEOMETRY_FAR, -1);
+}
+
+static void walls_divide_cells(void **state) {
+    (void)state;
+    graze_trace_settings settings = bounces(3);
+    graze_scene *scene = scene_from_text(rooms);
+    int found_bright = 0, found_dim = 0;
+    for (settings.seed = 0; settings.seed < 8; settings.seed++) {
+        view v = {{.scene = scene, .settings = &settings}};
+        irradiance_cache *cache;
+        assert_int_equal(irradiance_cache_build(&cache, &v.context, look_down, &v, PILOTS, 2, NULL), GRAZE_OK);
+        for (int i = 0; i < 30; i++) {
+            rgb bright[2], dim[2];
+            irradiance_record a = {{3.95 - 0.02 * i, 2, 3}, {0, 0, -1}, 1, 3};
+            irradiance_record b = {{4.15 + 0.02 * i, 2, 3}, {0, 0, -1}, 1, 3};
+            found_dim += irradiance_cache_find(cache, &b, dim);
+            if (irradiance_cache_find(cache, &b, dim) && irradiance_cache_find(cache, &a, bright)) {
+                found_bright++;
+                assert_true(dim[0].g + dim[1].g < 0.15 * (bright[0].g + bright[1].g));
+            }
+        }
+        irradiance_cache_destroy(cache);
+    }
+    assert_true(found_bright > 20 && found_dim > 20);
+    graze_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_do_not_change_what_is_found),
         cmocka_unit_test(the_cache_is_true),
         cmocka_unit_test(there_is_none_where_it_is_of_no_use),
         cmocka_unit_test(cells_are_where_paths_have_been),
+        cmocka_unit_test(walls_divide_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
