@@ -1,4 +1,4 @@
-/* Rendering: pixels are independent estimates, computed on all threads. */
+/* Rendering: pixels are estimates, computed on all threads; what they share is an irradiance cache. */
 #include "picture/picture.h"
 
 #include <stdlib.h>
@@ -194,7 +194,8 @@ static path_hit pilot_hit(void *user, size_t index) {
 static graze_status build_cache(rendering *whole, const graze_report *report) {
     const picture_settings *s = &whole->settings;
     const path_context context = {.scene = whole->scene, .settings = &whole->trace};
-    if (whole->trace.samples || (double)s->width * s->height < CACHE_PIXELS || whole->trace.error < CACHE_ERROR)
+    if (s->without_cache || whole->trace.samples || (double)s->width * s->height < CACHE_PIXELS ||
+        whole->trace.error < CACHE_ERROR)
         return GRAZE_OK;
     pilot p = make_pilot(whole);
     return irradiance_cache_build(&whole->cache, &context, pilot_hit, &p, (size_t)p.columns * (size_t)p.rows,

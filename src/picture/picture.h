@@ -29,7 +29,8 @@ typedef struct picture_settings {
     double jitter;       /* -pj: the part of a pixel's width and height that its samples spread over, 0 .. 1 */
     double aperture;     /* -pd: the lens's diameter; it is focused at the view direction's length; 0: a pinhole */
     double shutter;      /* -pm: the part of the time from frame to frame that it is open for, around the frame's own */
-    int spacing; /* -ps: of the pixels that are computed first, 1 .. 16; the others follow from coarse to fine */
+    int spacing;        /* -ps: of the pixels that are computed first, 1 .. 16; the others follow from coarse to fine */
+    bool without_cache; /* no path ends in the irradiance cache, where that would be of use */
     picture_content content;
     int threads;
 } picture_settings;

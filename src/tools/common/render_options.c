@@ -24,7 +24,7 @@ render_options render_options_default(double error) {
         .components = 3,
         .ambient_modifiers = {.letter = 'a'},
     };
-    o.ignored.ambient_accuracy = 0.1;
+    o.ambient_accuracy = 0.1;
     o.ignored.ambient_resolution = 256;
     o.ignored.ambient_supersamples = 512;
     o.ignored.direct_threshold = 0.03;
@@ -128,7 +128,7 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
         {"-cs", OPTION_INTEGER, &o->components, "N", "components of spectra; with -co+, 3 at most", 1, 1000, NULL,
          NULL},
         {"", OPTION_HEADING, NULL, NULL, "Accepted for Radiance's sake, without effect", 0, 0, NULL, NULL},
-        {"-aa", OPTION_REAL, &o->ignored.ambient_accuracy, "A", "ambient accuracy", 0, INFINITY, NULL, NULL},
+        {"-aa", OPTION_REAL, &o->ambient_accuracy, "A", "ambient accuracy", 0, INFINITY, NULL, NULL},
         {"-ar", OPTION_INTEGER, &o->ignored.ambient_resolution, "N", "ambient resolution", 0, 2147483647, NULL, NULL},
         {"-as", OPTION_INTEGER, &o->ignored.ambient_supersamples, "N", "ambient super-samples", 0, 2147483647, NULL,
          NULL},

@@ -30,13 +30,14 @@ typedef struct render_options {
     output_color_option color;
     model_options models;
     modifier_list ambient_modifiers;
-    const char *error_file; /* null: standard error */
-    bool all_components;    /* -co */
-    int components;         /* -cs */
+    const char *error_file;  /* null: standard error */
+    bool all_components;     /* -co */
+    int components;          /* -cs */
+    double ambient_accuracy; /* 0: without an irradiance cache, in pictures */
     double mist_extinction[3];
     /* Accepted so that Radiance's command lines work; Graze has nothing that they could steer. */
     struct {
-        double ambient_accuracy, direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
+        double direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
         double photon_radius, mist_albedo[3], mist_eccentricity, mist_distance;
         int ambient_weight, ambient_resolution, ambient_supersamples, direct_relays, direct_pretest;
         const char *ambient_file, *photon_page, *photon_cache;

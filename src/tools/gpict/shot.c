@@ -86,6 +86,7 @@ static graze_status prepare(shot *f, const job *j) {
     s->aperture = o->aperture;
     s->spacing = o->spacing;
     s->content = files_content(&f->files);
+    s->without_cache = o->render.ambient_accuracy == 0;
     s->threads = o->render.threads;
     if (status == GRAZE_OK)
         status = rad_view_prepare(&s->view, j->report);
