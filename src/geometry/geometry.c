@@ -33,7 +33,10 @@ static graze_status report_trouble(const trouble *t, const graze_report *report)
     return GRAZE_SYSTEM_ERROR;
 }
 
-static void find_bounds(geometry *g, size_t count) {
+static bool find_bounds(geometry *g, size_t count) {
+    g->reach = malloc((count + 1) * sizeof *g->reach);
+    if (!g->reach)
+        return false;
     vec3 lower = {INFINITY, INFINITY, INFINITY}, upper = vec3_negate(lower);
     for (size_t i = 0; i < count; i++) {
         vec3 a, b;
@@ -50,6 +53,7 @@ static void find_bounds(geometry *g, size_t count) {
     g->scale = ldexp(1, -exponent - 1);
     /* At most sqrt(3) times the half-width that the scale brings below 1/2; a little more takes in roundings. */
     g->radius = (1 + 1e-9) * vec3_length(vec3_scale(g->scale, half)) / g->scale + 1e-15 * vec3_max_abs(g->center);
+    return true;
 }
 
 vec3 geometry_corner(const geometry *g, const geometry_triangle *triangle, int corner) {
@@ -248,15 +252,10 @@ graze_status geometry_build(geometry **made, const shape *shapes, size_t count, 
         return report_out_of_memory(report);
     g->shapes = shapes;
     g->shape_count = count;
-    g->reach = malloc((count + 1) * sizeof *g->reach);
-    if (g->reach)
-        find_bounds(g, count);
     graze_status status = GRAZE_OK;
-    if (!g->reach)
-        status = report_out_of_memory(report);
-    else if (count > INT_MAX)
+    if (count > INT_MAX)
         status = report_error(report, NULL, "too many surfaces");
-    else if (!collect_surfaces(g, count))
+    else if (!find_bounds(g, count) || !collect_surfaces(g, count))
         status = report_out_of_memory(report);
     else if (g->triangle_count > UINT_MAX / 3)
         status = report_error(report, NULL, "too many triangles");

@@ -186,13 +186,14 @@ typedef struct finding {
 
 static void add_differences(evidence *e, rgb *mean, int count, int level) {
     for (; count > 1; count /= 2, level++) {
+        int pairs = count / 2;
         rgb squares = {0, 0, 0};
-        for (int i = 0; i < count / 2; i++) {
+        for (int i = 0; i < pairs; i++) {
             rgb difference = rgb_scale(0.5, rgb_add_scaled(mean[2 * i], -1, mean[2 * i + 1]));
             squares = rgb_add(squares, rgb_multiply(difference, difference));
             mean[i] = rgb_scale(0.5, rgb_add(mean[2 * i], mean[2 * i + 1]));
         }
-        add_evidence(e, variance_of_difference(level), count / 2, squares);
+        add_evidence(e, variance_of_difference(level), pairs, squares);
     }
 }
 

@@ -372,17 +372,20 @@ static void assert_same_bits(const graze_scene *scene, light_weigh_function *ver
     }
 }
 
+static void check_all_processors(graze_scene *scene) {
+    assert_same_bits(scene, light_weights_best());
+#ifdef LIGHT_WEIGHTS_X86_64
+    if (__builtin_cpu_supports("avx2"))
+        assert_same_bits(scene, light_weights_avx2);
+#endif
+    graze_scene_destroy(scene);
+}
+
 static void all_processors_give_the_same_bits(void **state) {
     (void)state;
-    graze_scene *scenes[] = {load(all_kinds), load_many(100), load_many(700)};
-    for (int i = 0; i < 3; i++) {
-        assert_same_bits(scenes[i], light_weights_best());
-#ifdef LIGHT_WEIGHTS_X86_64
-        if (__builtin_cpu_supports("avx2"))
-            assert_same_bits(scenes[i], light_weights_avx2);
-#endif
-        graze_scene_destroy(scenes[i]);
-    }
+    check_all_processors(load(all_kinds));
+    check_all_processors(load_many(100));
+    check_all_processors(load_many(700));
 }
 
 int main(void) {
