@@ -346,8 +346,10 @@ static void emit_if(emitter *e, cal_value *v) {
 static void emit_select(emitter *e, cal_value *v) {
     int branches = v->count - 1;
     bool fresh = begin_function(e, v);
-    uint32_t which = emit(e, v->operands[0]);
-    uint32_t d = place_of(e, v), table = put_op(e, CAL_OP_SELECT, d, which, (uint32_t)branches);
+    uint32_t which = emit(e, v->operands[0]), d = place_of(e, v);
+    /* It may note a fault itself, so it, and not the end, forgets those before. */
+    uint32_t table =
+        put(e, (cal_instruction){.op = CAL_OP_SELECT, .fresh = fresh, .d = d, .a = which, .b = (uint32_t)branches});
     v->scope = NULL;
     /* Where the count is asked for, or nothing is selected, it goes on at the first of these. */
     for (int i = 0; i <= branches; i++)
@@ -368,7 +370,7 @@ static void emit_select(emitter *e, cal_value *v) {
         land(e, ends[i]);
     land(e, table + 1);
     may_fault(e);
-    end_function(e, fresh, (cal_instruction){.op = CAL_OP_CHECK, .d = d});
+    end_function(e, false, (cal_instruction){.op = CAL_OP_CHECK, .d = d});
     v->scope = e->scope;
 }
 

@@ -234,6 +234,7 @@ static cal_outcome run(machine *m, const double *channels, double *outputs) {
             break;
         case CAL_OP_SELECT: {
             double which = r[i->a].value + .5;
+            fault = fault && !i->fresh;
             if (which >= 0 && which < 1) {
                 r[i->d].value = i->b;
             } else if (which >= 1 && which < i->b + 1.) {

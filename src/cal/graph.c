@@ -214,11 +214,18 @@ static cal_value *build_chain(cal_graph *g, const cal_node *node) {
     return v;
 }
 
+static cal_value *build_pair(cal_graph *g, cal_value_kind kind, const cal_node *node) {
+    cal_value *a = build(g, node->first);
+    return binary(g, kind, a, build(g, node->last));
+}
+
 /* --- Functions of the library ---------------------------------------------------------------------------------------
  */
 
-/* Its value is that of a function of the library already. */
+/* Its value is that of a function of the library already, computed here and not before. */
 static bool is_checked(const cal_value *v) {
+    if (v->is_named)
+        return false;
     return v->kind == CAL_V_REAL || v->kind == CAL_V_IF || v->kind == CAL_V_SELECT || v->kind == CAL_V_EXTREME ||
            v->kind == CAL_V_CHECK || v->kind == CAL_V_ARGUMENT || (v->kind == CAL_V_CONSTANT && v->effect);
 }
@@ -228,6 +235,7 @@ static cal_value *check(cal_graph *g, cal_value *operand) {
         return operand;
     if (is_constant(operand))
         return constant(g, operand->number, true);
+    /* Where the operand was computed before, the fault noted then is forgotten. */
     cal_value *v = set_operand(g, new_value(g, CAL_V_CHECK, 1), 0, operand);
     if (v)
         v->effect = true;
@@ -414,6 +422,12 @@ static cal_symbol *function_of(const cal_node *node, const cal_call *call) {
     return node->kind == CAL_VARIABLE ? node->symbol : NULL;
 }
 
+static cal_value *named(cal_value *v) {
+    if (v)
+        v->is_named = true;
+    return v;
+}
+
 static cal_value *build_parameter(cal_graph *g, const cal_node *node) {
     if (node->index >= g->call->argument_count)
         return too_few(g, node, g->call->symbol->name);
@@ -425,7 +439,7 @@ static cal_value *build_parameter(cal_graph *g, const cal_node *node) {
     int branches = g->branches;
     g->call = a->outside;
     g->branches = inside->branches;
-    a->value = build(g, a->tree);
+    a->value = named(build(g, a->tree));
     g->call = inside;
     g->branches = branches;
     return a->value;
@@ -544,7 +558,7 @@ static cal_value *build_variable_of_main(cal_graph *g, const cal_node *node) {
     int branches = g->branches;
     g->call = &at;
     g->branches = 0;
-    variable->value = build(g, symbol->definition->body);
+    variable->value = named(build(g, symbol->definition->body));
     g->call = call;
     g->branches = branches;
     return variable->value;
@@ -616,10 +630,10 @@ static cal_value *build_kind(cal_graph *g, const cal_node *node) {
         return build_channel(g, node);
     case CAL_NEGATIVE:
         return negate(g, build(g, node->first));
-    case CAL_QUOTIENT: {
-        cal_value *numerator = build(g, node->first);
-        return binary(g, CAL_V_DIVIDE, numerator, build(g, node->last));
-    }
+    case CAL_DIFFERENCE:
+        return build_pair(g, CAL_V_SUBTRACT, node);
+    case CAL_QUOTIENT:
+        return build_pair(g, CAL_V_DIVIDE, node);
     case CAL_POWER:
         return build_power(g, node);
     case CAL_VARIABLE:

@@ -36,8 +36,9 @@ typedef enum cal_value_kind {
 typedef struct cal_value {
     cal_value_kind kind;
     bool effect;
-    bool shared; /* of unit 0, needed by others */
-    int index;   /* of a channel, parameter, unit or message */
+    bool shared;   /* of unit 0, needed by others */
+    bool is_named; /* of a variable or an argument */
+    int index;     /* of a channel, parameter, unit or message */
     int count;
     int height;
     uint32_t uses;

@@ -29,8 +29,7 @@ void cal_program_destroy(cal_program *program) {
 
 /* The same expression, but for last digits of numbers. */
 static bool is_same(const cal_node *a, const cal_node *b) {
-    if (a->kind != b->kind || a->symbol != b->symbol || a->index != b->index || a->count != b->count ||
-        a->inverse != b->inverse)
+    if (a->kind != b->kind || a->symbol != b->symbol || a->index != b->index || a->count != b->count)
         return false;
     if (a->kind == CAL_NUMBER) {
         double most = 1e-12 * (b->number < 0 ? -b->number : b->number), apart = a->number - b->number;

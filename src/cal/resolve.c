@@ -17,7 +17,7 @@ typedef struct resolver {
     graze_status status;
 } resolver;
 
-/* Quotients and powers are trees within trees; chains of sums and products are not. */
+/* Chains of sums and products have one level, differences and quotients as many as there are of them. */
 enum { HEIGHT_MOST = 1000 };
 
 static cal_node *fail(resolver *r, const cal_node *node, const char *what) {
@@ -61,20 +61,15 @@ static cal_node *take_operands(cal_node *node) {
     return first;
 }
 
-/* The constant among the last operands of a chain that a further one can be joined with, without passing an inverse. */
-static cal_node *constant_to_join(const cal_node *chain) {
-    cal_node *found = NULL;
-    for (cal_node *n = chain->first; n; n = n->next) {
-        if (n->kind == CAL_NUMBER && !n->inverse && !found)
-            found = n;
-        if (n->inverse)
-            found = NULL;
-    }
-    return found;
+static cal_node *constant_of(const cal_node *chain) {
+    cal_node *n = chain->first;
+    while (n && n->kind != CAL_NUMBER)
+        n = n->next;
+    return n;
 }
 
 static void append_to_chain(cal_node *chain, cal_node *operand) {
-    cal_node *constant = operand->kind == CAL_NUMBER && !operand->inverse ? constant_to_join(chain) : NULL;
+    cal_node *constant = operand->kind == CAL_NUMBER ? constant_of(chain) : NULL;
     if (!constant)
         cal_node_append(chain, operand);
     else if (chain->kind == CAL_SUM)
@@ -83,46 +78,43 @@ static void append_to_chain(cal_node *chain, cal_node *operand) {
         constant->number *= operand->number;
 }
 
-static bool is_plain(const cal_node *chain) {
-    for (const cal_node *n = chain->first; n; n = n->next)
-        if (n->inverse)
-            return false;
-    return true;
-}
-
-/* `left` with one operand more; a chain of that kind on the right, without inverses, is taken in. */
-static cal_node *join(resolver *r, cal_kind kind, cal_node *left, cal_node *right, bool inverse) {
+/* `left` with one operand more; a chain of that kind on the right is taken in. */
+static cal_node *join(resolver *r, cal_kind kind, cal_node *left, cal_node *right) {
     cal_node *chain = left;
     if (left->kind != kind) {
         if (!(chain = new_node(r, left, kind)))
             return NULL;
-        left->inverse = false;
         cal_node_append(chain, left);
     }
-    if (right->kind == kind && !inverse && is_plain(right)) {
+    if (right->kind == kind) {
         for (cal_node *n = take_operands(right), *next; n; n = next) {
             next = n->next;
             append_to_chain(chain, n);
         }
     } else {
-        right->inverse = inverse;
         append_to_chain(chain, right);
     }
-    if (chain->count > 1)
-        return chain;
-    chain->first->next = NULL;
-    return chain->first;
+    return chain;
+}
+
+/* A difference or quotient. */
+static cal_node *pair(resolver *r, cal_kind kind, cal_node *left, cal_node *right) {
+    cal_node *node = new_node(r, left, kind);
+    if (!node)
+        return NULL;
+    cal_node_append(node, left);
+    cal_node_append(node, right);
+    return node->height > HEIGHT_MOST ? fail(r, right, "too many differences and quotients in one expression") : node;
 }
 
 static cal_node *add(resolver *r, cal_node *left, cal_node *right, bool inverse) {
-    if (right->kind == CAL_NUMBER) {
-        double value = inverse ? -right->number : right->number;
-        if (left->kind == CAL_NUMBER)
-            return as_number(left, left->number + value);
-        right->number = value;
-        inverse = false;
-    }
-    return join(r, CAL_SUM, left, right, inverse);
+    if (inverse && right->kind != CAL_NUMBER)
+        return pair(r, CAL_DIFFERENCE, left, right);
+    if (inverse)
+        right->number = -right->number;
+    if (left->kind == CAL_NUMBER && right->kind == CAL_NUMBER)
+        return as_number(left, left->number + right->number);
+    return join(r, CAL_SUM, left, right);
 }
 
 static cal_node *divide(resolver *r, cal_node *left, cal_node *right) {
@@ -131,16 +123,9 @@ static cal_node *divide(resolver *r, cal_node *left, cal_node *right) {
     if (right->kind == CAL_NUMBER) {
         if (left->kind == CAL_NUMBER)
             return as_number(left, left->number / right->number);
-        return join(r, CAL_PRODUCT, left, as_number(right, 1 / right->number), false);
+        return join(r, CAL_PRODUCT, left, as_number(right, 1 / right->number));
     }
-    if (is_number(left, 0))
-        return left;
-    cal_node *quotient = new_node(r, left, CAL_QUOTIENT);
-    if (!quotient)
-        return NULL;
-    cal_node_append(quotient, left);
-    cal_node_append(quotient, right);
-    return quotient->height > HEIGHT_MOST ? fail(r, right, "too many divisions in one expression") : quotient;
+    return is_number(left, 0) ? left : pair(r, CAL_QUOTIENT, left, right);
 }
 
 static cal_node *multiply(resolver *r, cal_node *left, cal_node *right, bool inverse) {
@@ -150,7 +135,7 @@ static cal_node *multiply(resolver *r, cal_node *left, cal_node *right, bool inv
         return as_number(left, left->number * right->number);
     if (is_number(left, 0) || is_number(right, 0))
         return is_number(left, 0) ? left : right;
-    return join(r, CAL_PRODUCT, left, right, false);
+    return join(r, CAL_PRODUCT, left, right);
 }
 
 static cal_node *resolve_chain(resolver *r, cal_node *chain) {

@@ -19,10 +19,11 @@ typedef enum cal_kind {
     CAL_NAME, /* not yet resolved; with operands: a call */
     CAL_CHANNEL,
     CAL_NEGATIVE,
-    CAL_SUM,     /* of two operands or more; `inverse` ones are subtracted */
-    CAL_PRODUCT, /* the same; as parsed, `inverse` ones divide */
+    CAL_SUM,     /* of two operands or more; as parsed, `inverse` ones are subtracted */
+    CAL_PRODUCT, /* the same; `inverse` ones divide */
     CAL_POWER,
     /* Only in resolved trees: */
+    CAL_DIFFERENCE,
     CAL_QUOTIENT,
     CAL_VARIABLE,  /* symbol */
     CAL_PARAMETER, /* the one of that index of the function that the tree is of */

@@ -1,12 +1,14 @@
 /* Evaluates expressions of the function language over records of doubles, as rcalc -id -od does.
  *
- *   cal_values [-s] [-t THREADS] [-f FILE.cal] [-e DEFINITIONS] [-a REAL]... [-c CHANNELS] EXPRESSION... <records
+ *   cal_values [-s] [-v] [-t THREADS] [-f FILE.cal] [-e DEFINITIONS] [-a REAL]... [-c CHANNELS] EXPRESSION... <records
  *
  * A record is CHANNELS (1) doubles. -s defines what scenes have; the expressions are read in the context of the file.
+ * -v prints the seconds that the evaluation took to standard error.
  * What cannot be answered ends the program with a message; faults give 0. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/parallel.h"
@@ -50,7 +52,7 @@ static void evaluate_piece(void *user, size_t index, int worker) {
 }
 
 typedef struct options {
-    bool scene;
+    bool scene, prints_time;
     int threads, channels, real_count;
     double reals[MOST];
     const char *file, *definitions;
@@ -69,6 +71,12 @@ static graze_status read_definitions(cal_program *program, const options *o) {
     return status;
 }
 
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 static int evaluate(const cal_code *code, const options *o, size_t outputs) {
     whole_file input = {.bytes = NULL};
     if (whole_file_read(&input, STDIN_FILENO, "standard input", NULL, &to_stderr))
@@ -80,7 +88,10 @@ static int evaluate(const cal_code *code, const options *o, size_t outputs) {
     w.values = malloc((w.count * outputs + 1) * sizeof *w.values);
     if (!w.values)
         return 2;
+    double begin = seconds();
     parallel_for(o->threads, w.pieces, evaluate_piece, &w);
+    if (o->prints_time)
+        fprintf(stderr, "%.9f\n", seconds() - begin);
     if (w.failure)
         fprintf(stderr, "%s\n", w.failure);
     else
@@ -91,10 +102,13 @@ static int evaluate(const cal_code *code, const options *o, size_t outputs) {
 }
 
 static bool read_options(options *o, int argc, char **argv) {
-    for (int c; (c = getopt(argc, argv, "st:f:e:a:c:")) != -1;) {
+    for (int c; (c = getopt(argc, argv, "svt:f:e:a:c:")) != -1;) {
         switch (c) {
         case 's':
             o->scene = true;
+            break;
+        case 'v':
+            o->prints_time = true;
             break;
         case 't':
             o->threads = atoi(optarg);
