@@ -161,5 +161,5 @@ graze_status cal_program_use_file(cal_program *program, const char *name, const 
 bool cal_program_defines(cal_program *program, const char *file, const char *name) {
     const char *context = cal_context_of_file(program->memory, file);
     const cal_symbol *symbol = context ? cal_symbols_find(&program->symbols, context, name) : NULL;
-    return symbol && (symbol->definition || symbol->library);
+    return symbol ? symbol->definition || symbol->library : context && cal_library_find(name);
 }
