@@ -27,27 +27,34 @@ uint64_t cal_code_channels(const cal_code *code) {
     return code->channels;
 }
 
-static graze_status parse_expression(cal_program *program, const cal_request *request, const cal_expression *x,
-                                     const char *context, const graze_report *report, cal_node **tree) {
+/* What is made on the way to code, and left behind then. */
+typedef struct workshop {
+    arena *memory;
+    cal_program *program;
+    const cal_request *request; /* null for a constant */
+    const char *context;
+    const graze_report *report;
+} workshop;
+
+static graze_status parse_expression(const workshop *w, const cal_expression *x, cal_node **tree) {
     cal_parser p;
     graze_status status;
-    cal_parse_begin(&p, x->text, strlen(x->text), program->memory, report);
-    p.where = request->where ? *request->where : (place){0};
+    cal_parse_begin(&p, x->text, strlen(x->text), w->memory, w->report);
+    p.where = w->request->where ? *w->request->where : (place){0};
     p.expression = x->text;
     status = cal_parse_expression(&p, tree);
     if (!status)
-        *tree = cal_resolve(program, &p, context, NULL, NULL, *tree, &status);
+        *tree = cal_resolve(w->program, &p, w->context, NULL, NULL, *tree, &status);
     return status;
 }
 
 /* The call of a function with channels as arguments. */
-static graze_status make_call(cal_program *program, const cal_expression *x, const char *context,
-                              const graze_report *report, cal_node **tree) {
+static graze_status make_call(const workshop *w, const cal_expression *x, cal_node **tree) {
     size_t count = (size_t)x->argument_count + 2;
-    cal_node *nodes = arena_allocate(program->memory, count * sizeof *nodes);
-    cal_symbol *symbol = cal_symbols_use(&program->symbols, context, x->text);
+    cal_node *nodes = arena_allocate(w->memory, count * sizeof *nodes);
+    cal_symbol *symbol = cal_symbols_use(&w->program->symbols, w->context, x->text);
     if (!nodes || !symbol)
-        return report_out_of_memory(report);
+        return report_out_of_memory(w->report);
     nodes[0] = (cal_node){.kind = CAL_CALL, .line = 1, .column = 1};
     nodes[1] = (cal_node){.kind = CAL_VARIABLE, .symbol = symbol, .line = 1, .column = 1};
     cal_node_append(&nodes[0], &nodes[1]);
@@ -59,7 +66,7 @@ static graze_status make_call(cal_program *program, const cal_expression *x, con
     return GRAZE_OK;
 }
 
-static graze_status compile_all(cal_graph *g, cal_code *code, cal_node *const *trees, size_t count) {
+static graze_status emit_trees(cal_graph *g, cal_code *code, cal_node *const *trees, size_t count) {
     cal_value **results = arena_allocate(g->memory, count * sizeof *results);
     if (!results)
         return report_out_of_memory(g->report);
@@ -70,52 +77,61 @@ static graze_status compile_all(cal_graph *g, cal_code *code, cal_node *const *t
     return status ? status : cal_emit(code, g, results, count);
 }
 
-static graze_status compile_trees(cal_code **made, cal_program *program, cal_node *const *trees, size_t count,
-                                  const cal_request *request, const graze_report *report) {
+static bool copy_reals(cal_code *code, const cal_request *request) {
+    size_t count = request ? request->real_count : 0;
+    double *reals = arena_allocate(code->memory, count * sizeof *reals);
+    if (!reals)
+        return false;
+    if (count)
+        memcpy(reals, request->reals, count * sizeof *reals);
+    code->reals = reals;
+    code->real_count = (uint32_t)count;
+    return true;
+}
+
+static graze_status compile_trees(cal_code **made, const workshop *w, cal_node *const *trees, size_t count) {
     cal_code *code = new_code();
-    arena *memory = arena_create();
-    cal_graph *g = memory ? arena_allocate(memory, sizeof *g) : NULL;
-    size_t real_count = request ? request->real_count : 0;
-    double *reals = code ? arena_allocate(code->memory, real_count * sizeof *reals) : NULL;
+    cal_graph *g = arena_allocate(w->memory, sizeof *g);
     graze_status status;
-    if (!code || !g || !reals) {
-        status = report_out_of_memory(report);
+    if (!code || !g || !copy_reals(code, w->request)) {
+        status = report_out_of_memory(w->report);
     } else {
-        if (real_count)
-            memcpy(reals, request->reals, real_count * sizeof *reals);
-        code->reals = reals;
-        code->real_count = (uint32_t)real_count;
-        cal_graph_begin(g, program, memory, code->memory, report);
-        g->where = request ? request->where : NULL;
-        g->reals = reals;
-        g->real_count = real_count;
-        g->channels = request ? request->channels : 0;
-        g->is_constant = !request;
-        status = compile_all(g, code, trees, count);
+        cal_graph_begin(g, w->program, w->memory, code->memory, w->report);
+        g->where = w->request ? w->request->where : NULL;
+        g->reals = code->reals;
+        g->real_count = code->real_count;
+        g->channels = w->request ? w->request->channels : 0;
+        g->is_constant = !w->request;
+        status = emit_trees(g, code, trees, count);
     }
-    arena_destroy(memory);
     *made = status ? NULL : code;
     if (status)
         cal_code_destroy(code);
     return status;
 }
 
-graze_status cal_compile(cal_code **code, cal_program *program, const cal_request *request,
-                         const graze_report *report) {
-    size_t count = request->expression_count;
-    const char *context = cal_context_of_file(program->memory, request->file);
-    cal_node **trees = arena_allocate(program->memory, count * sizeof *trees);
-    *code = NULL;
-    if (!context || !trees)
-        return report_out_of_memory(report);
+static graze_status compile_request(cal_code **code, workshop *w) {
+    size_t count = w->request->expression_count;
+    cal_node **trees = arena_allocate(w->memory, count * sizeof *trees);
+    w->context = cal_context_of_file(w->memory, w->request->file);
+    if (!w->context || !trees)
+        return report_out_of_memory(w->report);
     for (size_t i = 0; i < count; i++) {
-        const cal_expression *x = &request->expressions[i];
-        graze_status status = x->argument_count ? make_call(program, x, context, report, &trees[i])
-                                                : parse_expression(program, request, x, context, report, &trees[i]);
+        const cal_expression *x = &w->request->expressions[i];
+        graze_status status = x->argument_count ? make_call(w, x, &trees[i]) : parse_expression(w, x, &trees[i]);
         if (status)
             return status;
     }
-    return compile_trees(code, program, trees, count, request, report);
+    return compile_trees(code, w, trees, count);
+}
+
+graze_status cal_compile(cal_code **code, cal_program *program, const cal_request *request,
+                         const graze_report *report) {
+    workshop w = {.memory = arena_create(), .program = program, .request = request, .report = report};
+    *code = NULL;
+    graze_status status = w.memory ? compile_request(code, &w) : report_out_of_memory(report);
+    arena_destroy(w.memory);
+    return status;
 }
 
 static graze_status evaluate_constant(const cal_code *code, const cal_parser *p, const cal_node *node, double *value) {
@@ -139,10 +155,12 @@ graze_status cal_constant(cal_program *program, const cal_parser *p, cal_node *n
         *value = d->body->number;
         return GRAZE_OK;
     }
-    cal_code *code;
-    graze_status status = compile_trees(&code, program, &node, 1, NULL, p->report);
+    cal_code *code = NULL;
+    const workshop w = {.memory = arena_create(), .program = program, .report = p->report};
+    graze_status status = w.memory ? compile_trees(&code, &w, &node, 1) : report_out_of_memory(p->report);
     if (!status)
         status = evaluate_constant(code, p, node, value);
     cal_code_destroy(code);
+    arena_destroy(w.memory);
     return status;
 }

@@ -44,7 +44,7 @@ static cal_node *as_number(cal_node *node, double value) {
 }
 
 static cal_node *new_node(resolver *r, const cal_node *like, cal_kind kind) {
-    cal_node *node = arena_allocate(r->program->memory, sizeof *node);
+    cal_node *node = arena_allocate(r->parser->memory, sizeof *node);
     if (!node)
         return out_of_memory(r);
     *node = (cal_node){.kind = kind, .line = like->line, .column = like->column};
