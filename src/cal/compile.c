@@ -67,7 +67,7 @@ static graze_status make_call(const workshop *w, const cal_expression *x, cal_no
 }
 
 static graze_status emit_trees(cal_graph *g, cal_code *code, cal_node *const *trees, size_t count) {
-    cal_value **results = arena_allocate(g->memory, count * sizeof *results);
+    cal_value **results = arena_allocate(g->memory, count * sizeof(void *));
     if (!results)
         return report_out_of_memory(g->report);
     for (size_t i = 0; i < count; i++)
@@ -112,7 +112,7 @@ static graze_status compile_trees(cal_code **made, const workshop *w, cal_node *
 
 static graze_status compile_request(cal_code **code, workshop *w) {
     size_t count = w->request->expression_count;
-    cal_node **trees = arena_allocate(w->memory, count * sizeof *trees);
+    cal_node **trees = arena_allocate(w->memory, count * sizeof(void *));
     w->context = cal_context_of_file(w->memory, w->request->file);
     if (!w->context || !trees)
         return report_out_of_memory(w->report);

@@ -10,6 +10,8 @@
 #ifndef CAL_GRAPH_H
 #define CAL_GRAPH_H
 
+#include <math.h>
+
 #include "cal/compile.h"
 #include "cal/program_internal.h"
 
@@ -52,6 +54,11 @@ typedef struct cal_value {
     uint32_t place, flag, entry;
     bool has_place, has_flag, is_marked;
 } cal_value;
+
+/* Not only equal, for 0 and -0 are two. */
+static inline bool cal_is_same_number(double a, double b) {
+    return a == b && signbit(a) == signbit(b);
+}
 
 /* What a parameter of a function is in one place where it is called. */
 typedef struct cal_argument {

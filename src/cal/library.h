@@ -20,9 +20,9 @@ typedef enum cal_builtin {
 
 typedef struct cal_function {
     const char *name;
-    cal_builtin kind;
     double (*real_1)(double);
     double (*real_2)(double, double);
+    cal_builtin kind;
     cal_noise_kind noise;
 } cal_function;
 

@@ -140,23 +140,17 @@ static cal_node *multiply(resolver *r, cal_node *left, cal_node *right, bool inv
 
 static cal_node *resolve_chain(resolver *r, cal_node *chain) {
     cal_kind kind = chain->kind;
-    cal_node *operand = take_operands(chain), *result = NULL;
-    while (operand) {
-        cal_node *next = operand->next;
+    cal_node *operand = take_operands(chain), *next = operand->next, *result = resolve(r, operand);
+    for (operand = next; operand && result; operand = next) {
         bool inverse = operand->inverse;
-        operand->next = NULL;
-        operand->inverse = false;
+        next = operand->next;
         operand = resolve(r, operand);
         if (!operand)
             return NULL;
-        if (!result)
-            result = operand;
-        else
-            result = kind == CAL_SUM ? add(r, result, operand, inverse) : multiply(r, result, operand, inverse);
-        if (!result)
-            return NULL;
-        operand = next;
+        result = kind == CAL_SUM ? add(r, result, operand, inverse) : multiply(r, result, operand, inverse);
     }
+    if (!result)
+        return NULL;
     if (result->kind == CAL_NUMBER && !isfinite(result->number))
         return fail(r, result, "this constant is out of range");
     return result;

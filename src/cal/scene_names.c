@@ -35,11 +35,11 @@ const char *const cal_scene_names[] = {
     "P(axis) = select(axis, Px, Py, Pz); dot(a, b) : a(1)*b(1) + a(2)*b(2) + a(3)*b(3);",
     "cross(axis, a, b) : select(axis, a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1));",
     /* Curves. */
-    "hermite(a, b, slope_a, slope_b, t) : a*((2*t - 3)*t*t + 1) + b*(3 - 2*t)*t*t + slope_a*(((t - 2)*t + 1)*t) + "
-    "slope_b*((t - 1)*t*t);",
+    ("hermite(a, b, slope_a, slope_b, t) : a*((2*t - 3)*t*t + 1) + b*(3 - 2*t)*t*t + slope_a*(((t - 2)*t + 1)*t) + "
+     "slope_b*((t - 1)*t*t);"),
     "bezier(a, b, c, d, t) : a*(1 + t*(-3 + t*(3 - t))) + b*3*t*(1 + t*(-2 + t)) + c*3*t*t*(1 - t) + d*t*t*t;",
-    "bspline(a, b, c, d, t) : a*(1/6 + t*(-.5 + t*(.5 - 1/6*t))) + b*(2/3 + t*t*(-1 + .5*t)) + c*(1/6 + t*(.5 + t*(.5 "
-    "- .5*t))) + d*(1/6*t*t*t);",
+    ("bspline(a, b, c, d, t) : a*(1/6 + t*(-.5 + t*(.5 - 1/6*t))) + b*(2/3 + t*t*(-1 + .5*t)) + c*(1/6 + t*(.5 + t*(.5 "
+     "- .5*t))) + d*(1/6*t*t*t);"),
     /* Noise. */
     "noise3a(x, y, z) : noise3x(x, y, z); noise3b(x, y, z) : noise3y(x, y, z);", "noise3c(x, y, z) : noise3z(x, y, z);",
     "noise3d(axis, x, y, z) : select(axis, noise3x(x, y, z), noise3y(x, y, z), noise3z(x, y, z));",
@@ -68,8 +68,8 @@ const char *const cal_scene_names[] = {
     /* Photometry of lights, in degrees: from the axis -z, and about it with the symmetry of 90, 180, or 360. */
     "source_theta(any) = Acos(Dz)/DEGREE; turn`own = atan2(-Dy, -Dx)/DEGREE;",
     "phi`own = if(-turn`own, turn`own + 360, turn`own); half`own = if(180 - phi`own, phi`own, phi`own - 180);",
-    "source_phi(symmetry) = select(symmetry/90, if(90 - half`own, half`own, 180 - half`own), if(180 - phi`own, "
-    "phi`own, 360 - phi`own), log(-symmetry), phi`own);",
+    ("source_phi(symmetry) = select(symmetry/90, if(90 - half`own, half`own, 180 - half`own), if(180 - phi`own, "
+     "phi`own, 360 - phi`own), log(-symmetry), phi`own);"),
     /* Candela to radiance by what is seen of: nothing, a plane, a box, a box nearby, a cylinder. */
     "reach`own(x, half) : noneg(abs(x) - half/2); height`own = if(1 - Dz, Dz, 1 - FTINY);",
     "box`own = abs(Dx)*A3*A4 + abs(Dy)*A2*A4 + abs(Dz)*A2*A3;",
