@@ -20,10 +20,11 @@ ALL_CFLAGS = -std=c11 -D_POSIX_C_SOURCE=200809L -DGRAZE_VERSION='"$(VERSION)"' -
              -fvisibility=hidden -fPIC -pthread $(WARN) -Iinclude -Isrc $(CFLAGS) $(EXTRA_CFLAGS)
 
 # Each folder of src/ is an archive; it may use the folders named here and what they use (the table in CONTRIBUTING.md).
-FOLDERS := base brdf rad image fit geometry material scene trace picture
+FOLDERS := base brdf rad cal image fit geometry material scene trace picture
 USES_base     :=
 USES_brdf     :=
 USES_rad      := base
+USES_cal      := base
 USES_image    := base
 USES_fit      := brdf base
 USES_geometry := rad base
@@ -123,6 +124,7 @@ FUZZ_MAIN := $(BUILD)/test/fuzz/replay.o
 FUZZ_grid := $(BUILD)/obj/tools/brdfeval/grid.o $(BUILD)/obj/tools/brdfeval/evaluation.o
 FUZZ_FLAGS_records := -Wl,--wrap=read,--wrap=poll
 FUZZ_BASIS_measurements := fit
+FUZZ_BASIS_cal := cal
 $(BUILD)/test/fuzz/replay.o: test/fuzz/replay.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -c -o $@ $<
@@ -146,6 +148,12 @@ $(BUILD)/test/bench/brdf: test/bench/brdf.c $(call archives,brdf) $(BUILD)/flags
 $(BUILD)/test/bench/embree: test/bench/embree.c $(call archives,scene) $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,scene) $(call libs,scene) $(LDFLAGS)
+
+# Function files evaluated over records: for the comparison with Radiance, and for measurements.
+$(BUILD)/test/bench/cal_values: test/bench/cal_values.c $(call archives,cal) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,$@)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -o $@ $< $(call archives,cal) $(call libs,cal) $(LDFLAGS)
+tests: $(BUILD)/test/bench/cal_values
 
 # The long form of test/brdf/accuracy.c.
 $(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
@@ -215,15 +223,17 @@ test:
 	@BUILD=$(BUILD) BIN=$(BIN) MAKE=$(MAKE) test/run $(TEST_GROUPS)
 test: TEST_GROUPS = unit cli $(if $(filter no,$(PEER)),,peer)
 
-# bench: models beside libmvec, records beside cat and rcalc, rays and pictures beside rtrace; BENCH=brdf, ... for one of these
-BENCH := brdf records rays pictures
+# bench: models beside libmvec, records and function files beside rcalc, rays and pictures beside rtrace; BENCH=brdf, ... for one of these
+BENCH := brdf records cal rays pictures
 bench:
 	@scripts/install-dependencies build test $(if $(filter pictures,$(BENCH)),figures)
 	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)
-	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf $(BUILD)/test/bench/embree
+	@$(MAKE) $(JOBS) --no-print-directory programs $(BUILD)/test/bench/brdf $(BUILD)/test/bench/embree \
+	    $(BUILD)/test/bench/cal_values
 	@for part in $(BENCH); do \
 	    if [ $$part = brdf ]; then $(BUILD)/test/bench/brdf; \
-	    else BIN=$(abspath $(BIN)) GRAZE_PEER=$(abspath build/peer) GRAZE_BENCH_EMBREE=$(abspath $(BUILD)/test/bench/embree) \
+	    else BIN=$(abspath $(BIN)) BUILD=$(abspath $(BUILD)) GRAZE_PEER=$(abspath build/peer) \
+	        GRAZE_BENCH_EMBREE=$(abspath $(BUILD)/test/bench/embree) \
 	        build/peer/bin/python test/bench/$$part.py; fi || exit; \
 	done
 
