@@ -17,7 +17,7 @@ typedef struct checkpoint_labels {
  * looks finds the last checkpoint or this one. FILE.new is used on the way. */
 graze_status checkpoint_write(const rendering *, const char *file, const checkpoint_labels *, const graze_report *);
 
-/* Removes the file and FILE.new, where they are. */
+/* Removes the file and FILE.new, where they are and are checkpoints. */
 void checkpoint_remove(const char *file);
 
 /* Whether the file begins as checkpoints do. */

@@ -131,8 +131,9 @@ graze_status checkpoint_write(const rendering *p, const char *file, const checkp
 
 void checkpoint_remove(const char *file) {
     char *path = new_name(file);
-    if (path)
+    if (path && checkpoint_is(path))
         unlink(path);
     free(path);
-    unlink(file);
+    if (checkpoint_is(file))
+        unlink(file);
 }

@@ -114,4 +114,11 @@ if script -qec true /dev/null >s 2>&1; then
     NO_COLOR=1 TERM=xterm script -qec "$gpict ${view[*]} -x 8 -y 8 --samples 4 -o s.hdr room.rad" /dev/null >bar
     check "... but not where NO_COLOR says no" test ! -s bar
 fi
+
+# A checkpoint replaces nothing else, and where none can be written is said at once.
+cp room.rad mine.rad
+fails "--checkpoint where something else is" 1 "is no checkpoint" "" "$gpict" --checkpoint mine.rad -o none.hdr mine.rad
+check "... which stays" cmp room.rad mine.rad
+fails "--checkpoint where the picture is to be" 1 "written twice" "" "$gpict" --checkpoint none.hdr -o none.hdr room.rad
+fails "--checkpoint where nothing can be written" 1 "nowhere/c" "" "$gpict" --checkpoint nowhere/c -o none.hdr room.rad
 plan

@@ -19,7 +19,7 @@ import tempfile
 import numpy as np
 
 PEER = os.environ["GRAZE_PEER_BIN"]
-VALUES = os.path.join(os.environ["BUILD"], "test/bench/cal_values")
+VALUES = os.path.abspath(os.path.join(os.environ["BUILD"], "test/bench/cal_values"))
 ENVIRONMENT = dict(os.environ, RAYPATH=os.environ["GRAZE_PEER_RAYPATH"])
 UNIT = 2.0**-52
 

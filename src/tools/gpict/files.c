@@ -69,8 +69,15 @@ static bool is_same(const char *a, const char *b) {
     return a && b && strcmp(a, b) == 0;
 }
 
+/* A checkpoint replaces nothing but a checkpoint. */
+static graze_status check_checkpoint(const char *file, const graze_report *report) {
+    if (access(file, F_OK) == 0 && !checkpoint_is(file))
+        return report_error(report, &(place){.file = file}, "is there, and is no checkpoint");
+    return image_output_check(file, report);
+}
+
 graze_status files_check(const picture_files *f, const graze_report *report) {
-    const char *files[OUTPUT_LIMIT + 3];
+    const char *files[OUTPUT_LIMIT + 5];
     int count = 0;
     graze_status status = GRAZE_OK;
     for (int i = 0; i < f->count; i++)
@@ -83,6 +90,12 @@ graze_status files_check(const picture_files *f, const graze_report *report) {
         files[count++] = f->depth;
         status = image_output_check(f->depth, report);
     }
+    if (status == GRAZE_OK && f->checkpoint) {
+        files[count++] = f->checkpoint;
+        status = check_checkpoint(f->checkpoint, report);
+    }
+    if (f->preview_wanted && f->preview)
+        files[count++] = f->preview;
     for (int i = 0; i < count && status == GRAZE_OK; i++)
         for (int j = 0; j < i && status == GRAZE_OK; j++)
             if (is_same(files[i], files[j]))
