@@ -246,6 +246,25 @@ static void share_halves(const half halves[HALVES], double share[HALVES]) {
         share[i] = alike ? (double)halves[i].taken / all : 0.5;
 }
 
+/* Shadows of lights that are seen in part, as far as is known, may lie where no sample has been: about one part in as
+ * many as there are samples. */
+static double unseen_shadows(const half halves[HALVES]) {
+    double unseen = 0;
+    for (int k = 0; k < PATH_CONTROLS; k++) {
+        double lit = 0, whole = 0;
+        uint32_t taken = 0;
+        for (int i = 0; i < HALVES; i++) {
+            bool known = k < halves[i].control_count;
+            lit += known ? halves[i].lit[k] : 0;
+            whole += known ? halves[i].whole[k] : 0;
+            taken += halves[i].taken;
+        }
+        if (lit >= whole || lit <= 0)
+            unseen += whole / ((double)taken * taken);
+    }
+    return unseen;
+}
+
 static void summarize(const half halves[HALVES], const finding found[HALVES], graze_answer *answer) {
     double share[HALVES];
     share_halves(halves, share);
@@ -260,6 +279,11 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
                                 halves[1].spread);
     variance = rgb_add(variance, rgb_multiply(spread, spread));
     answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
+    double unseen = unseen_shadows(halves), brightness = rgb_brightness(answer->value);
+    if (unseen > 0 && brightness > 0) {
+        rgb part = rgb_scale(fmin(unseen / brightness, 1), answer->value);
+        variance = rgb_add(variance, rgb_multiply(part, part));
+    }
     answer->standard_error = with_known_error(variance, answer->value, halves);
     answer->samples = halves[0].taken + halves[1].taken;
 }
