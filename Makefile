@@ -327,6 +327,7 @@ install: all
 	$(INSTALL) -m 644 LICENSE $(dest)/share/doc/graze
 	$(INSTALL) -d $(dest)/share/doc/graze/figures
 	$(INSTALL) -m 644 man/figures/README.md man/figures/*.png $(dest)/share/doc/graze/figures
+	$(INSTALL) -D -m 644 man/performance/README.md $(dest)/share/doc/graze/performance/README.md
 
 # uninstall: remove what install put there
 uninstall:
