@@ -37,7 +37,7 @@ static bool has_one_role(const scene_light *light) {
 static geometry_visibility visibility(const graze_scene *scene, const vertex *v, int index) {
     const scene_light *light = &scene->lights[index];
     return geometry_sight_of(scene->geometry, &(geometry_sight){.point = v->point,
-                                                                .normal = v->shading.n,
+                                                                .normal = v->normal,
                                                                 .from = v->surface,
                                                                 .light = light->surface,
                                                                 .axis = light->center,
@@ -116,7 +116,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
     } else if (p->depth > 0) {
         return false; /* not worth the question */
     }
-    return !geometry_reflects_above(scene->geometry, v->point, v->shading.n, v->surface);
+    return !geometry_reflects_above(scene->geometry, v->point, v->normal, v->surface);
 }
 
 void known_light_subtract_reflected(path *p, const vertex *from, const path_hit *hit, rgb found) {

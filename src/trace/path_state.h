@@ -12,6 +12,7 @@
 /* A point that light is gathered at, and how the path got there. */
 typedef struct vertex {
     vec3 point;
+    vec3 normal; /* of the surface as it stands in space, on the viewer's side; that of `shading` may lean */
     int surface; /* -1: a sensor */
     graze_surface shading;
     rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */

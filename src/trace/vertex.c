@@ -24,6 +24,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
     v->point = hit->point;
+    v->normal = normal;
     v->surface = hit->surface;
     v->no_ambient = scene->surfaces[hit->surface].no_ambient;
     if (p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT)
@@ -50,7 +51,7 @@ bool vertex_keep_part(vertex *v, graze_part part) {
 }
 
 vertex vertex_of_point(vec3 point, vec3 normal, int surface) {
-    vertex v = {.point = point, .surface = surface, .shading = probe(normal, normal)};
+    vertex v = {.point = point, .normal = normal, .surface = surface, .shading = probe(normal, normal)};
     v.ambient = v.shading.diffuse;
     return v;
 }
