@@ -87,7 +87,7 @@ static void add_sampled_light(path *p, const vertex *v, int light, double expect
         p->radiance = rgb_add(p->radiance, found);
         observe_shadow_ray(p, v->point, &sample, found);
     }
-    if (known_light_is(p, light))
+    if (known_light_is_control(p, light))
         known_light_subtract(p, light, found, lit);
 }
 

@@ -6,8 +6,8 @@
 #include "trace/emission.h"
 #include "trace/unshadowed.h"
 
-bool known_light_is(const path *p, int light) {
-    return light < PATH_FIRST_CONTROLS && p->known.lights >> light & 1;
+bool known_light_is_control(const path *p, int light) {
+    return light < PATH_FIRST_CONTROLS && p->known.controls >> light & 1;
 }
 
 bool known_light_is_settled(const path *p, int light) {
@@ -95,7 +95,7 @@ void known_light_add(path *p, const vertex *v, const light_choice *lights) {
             p->radiance = rgb_add(p->radiance, reflected);
             continue;
         }
-        p->known.lights |= 1u << i;
+        p->known.controls |= 1u << i;
         begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
         path_control *control = control_of(p, i);
         control->difference = rgb_add(control->difference, reflected);
@@ -122,7 +122,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
 void known_light_subtract_reflected(path *p, const vertex *from, const path_hit *hit, rgb found) {
     const graze_scene *scene = p->context->scene;
     for (int i = 0; i < (int)scene->light_count && i < PATH_FIRST_CONTROLS; i++) {
-        if (!known_light_is(p, i))
+        if (!known_light_is_control(p, i))
             continue;
         if (hit->light == i && !hit->passed) {
             known_light_subtract(p, i, found, true);

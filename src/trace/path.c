@@ -59,7 +59,7 @@ static void follow(path *p, vertex v) {
             add_ambient_value(p, &v);
         lobe_choice choice = lobes_choose(p, &v);
         direct_light_prepare(p, &v, &lights);
-        p->known.lights = p->known.settled = 0;
+        p->known.controls = p->known.settled = 0;
         if (light_choice_is_possible(&lights) && !context->record) {
             if (!context->observer)
                 known_light_add(p, &v, &lights);
@@ -76,7 +76,7 @@ static void follow(path *p, vertex v) {
         observe_ray(p, v.point, &hit, found);
         if (!scattered)
             p->direct = p->radiance;
-        if (p->known.lights)
+        if (p->known.controls)
             known_light_subtract_reflected(p, &v, &hit, found);
         if (!vertex_at_hit(p, &hit, &v) || ends_in_cache(p, &hit, &v))
             return;

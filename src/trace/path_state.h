@@ -30,12 +30,11 @@ typedef struct scattering {
     const light_choice *lights; /* as seen from there */
 } scattering;
 
-/* The lights at the last vertex whose unshadowed light is known, a bit each, and where to keep the control of the first
- * of them. */
+/* What is known of lights at the last vertex without sampling them, a bit for each of the first lights. */
 typedef struct known_lights {
-    unsigned lights;
-    unsigned settled; /* of others all that they give is known: they are seen wholly, or not at all */
-    bool shared;      /* one control for all */
+    unsigned controls; /* of these, what they would give without shadows: it is a control of what samples find */
+    unsigned settled;  /* of these, all that they give: they are seen wholly, or not at all */
+    bool shared;       /* the controls are one for all */
 } known_lights;
 
 typedef struct path {
