@@ -25,9 +25,9 @@ static void add_ambient_value(path *p, const vertex *v) {
     observe_surface(p, found);
 }
 
-/* Whether what the path comes to by a diffuse reflection is told by the cache. What the surface reflects specularly is
- * left of the vertex. True: nothing is. */
-static bool ends_in_cache(path *p, const path_hit *hit, vertex *v) {
+/* Takes what the cache tells of the point that a diffuse reflection has led to, or notes the record that is asked for.
+ * What the surface reflects specularly is left of the vertex. True: nothing is, and the path ends. */
+static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     const path_context *context = p->context;
     bool wanted = context->cache || context->record;
     if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
@@ -78,7 +78,7 @@ static void follow(path *p, vertex v) {
             p->direct = p->radiance;
         if (p->known.controls)
             known_light_subtract_reflected(p, &v, &hit, found);
-        if (!vertex_at_hit(p, &hit, &v) || ends_in_cache(p, &hit, &v))
+        if (!vertex_at_hit(p, &hit, &v) || take_from_cache(p, &hit, &v))
             return;
     }
 }
