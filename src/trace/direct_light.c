@@ -5,10 +5,9 @@
 #include "trace/known_light.h"
 #include "trace/observer.h"
 
-/* Up to so many lights are all sampled, at the first point and at later ones; of more, some are chosen. */
-#define EVERY_LIGHT_FIRST PATH_FIRST_CONTROLS
+/* Few lights are all sampled at the first point, and up to so many at later ones. */
 #define EVERY_LIGHT_LATER 2
-/* Of the others, so many. */
+/* Of more, so many are chosen. */
 #define CHOSEN_FIRST 4
 #define CHOSEN_LATER 2
 
@@ -28,7 +27,7 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
         if (glossy && !v->gloss_is_ambient)
             receiver.ambient_glossy = v->shading.specular;
     }
-    bool first = p->depth == 0, every = context->scene->light_count <= (first ? EVERY_LIGHT_FIRST : EVERY_LIGHT_LATER);
+    bool first = p->depth == 0, every = context->scene->light_count <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER);
     receiver.draws = every ? 0 : first ? CHOSEN_FIRST : CHOSEN_LATER;
     light_choice_prepare(lights, context->scene, &receiver);
 }

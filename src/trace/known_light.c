@@ -7,15 +7,15 @@
 #include "trace/unshadowed.h"
 
 bool known_light_is_control(const path *p, int light) {
-    return light < PATH_FIRST_CONTROLS && p->known.controls >> light & 1;
+    return light < PATH_FEW_LIGHTS && p->known.controls >> light & 1;
 }
 
 bool known_light_is_settled(const path *p, int light) {
-    return light < PATH_FIRST_CONTROLS && p->known.settled >> light & 1;
+    return light < PATH_FEW_LIGHTS && p->known.settled >> light & 1;
 }
 
 static path_control *control_of(path *p, int light) {
-    return &p->controls[p->known.shared ? PATH_FIRST_CONTROLS : light];
+    return &p->controls[p->known.shared ? PATH_FEW_LIGHTS : light];
 }
 
 void known_light_subtract(path *p, int light, rgb found, bool lit) {
@@ -121,7 +121,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
 
 void known_light_subtract_reflected(path *p, const vertex *from, const path_hit *hit, rgb found) {
     const graze_scene *scene = p->context->scene;
-    for (int i = 0; i < (int)scene->light_count && i < PATH_FIRST_CONTROLS; i++) {
+    for (int i = 0; i < (int)scene->light_count && i < PATH_FEW_LIGHTS; i++) {
         if (!known_light_is_control(p, i))
             continue;
         if (hit->light == i && !hit->passed) {

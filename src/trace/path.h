@@ -14,8 +14,8 @@ typedef struct path_control {
     double lit, whole;
 } path_control;
 
-/* One for each of the first lights at the first point, and one for all lights at later points. */
-enum { PATH_FIRST_CONTROLS = PATH_MEMORY_LIGHTS, PATH_CONTROLS = PATH_FIRST_CONTROLS + 1 };
+/* One for each of few lights at the first point, and one for all lights at later points. */
+enum { PATH_CONTROLS = PATH_FEW_LIGHTS + 1 };
 
 typedef struct path_sample {
     rgb radiance;

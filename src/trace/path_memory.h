@@ -5,8 +5,9 @@
 #include "geometry/shaft.h"
 #include "trace/unshadowed.h"
 
-/* One for each of the first lights. */
-#define PATH_MEMORY_LIGHTS 8
+/* A scene has few lights if it has no more than this. At the first point all of few lights are sampled, and each has a
+ * memory and a control of its own. */
+enum { PATH_FEW_LIGHTS = 8 };
 
 /* What is known of a light at the first point. */
 typedef struct path_memory_light {
@@ -20,7 +21,7 @@ typedef struct path_memory_light {
 /* Belongs to the estimate, whose paths come one after another, and begins as zeros but for `alike`. */
 typedef struct path_memory {
     bool alike; /* all paths have the same first point */
-    path_memory_light lights[PATH_MEMORY_LIGHTS];
+    path_memory_light lights[PATH_FEW_LIGHTS];
 } path_memory;
 
 #endif

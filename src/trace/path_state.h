@@ -30,7 +30,7 @@ typedef struct scattering {
     const light_choice *lights; /* as seen from there */
 } scattering;
 
-/* What is known of lights at the last vertex without sampling them, a bit for each of the first lights. */
+/* What is known of lights at the last vertex without sampling them, a bit for each of the first PATH_FEW_LIGHTS. */
 typedef struct known_lights {
     unsigned controls; /* of these, what they would give without shadows: it is a control of what samples find */
     unsigned settled;  /* of these, all that they give: they are seen wholly, or not at all */
