@@ -72,7 +72,7 @@ void light_choice_prepare(light_choice *choice, const graze_scene *scene, const 
     const light_tree *tree = &scene->light_tree;
     choice->tree = tree;
     choice->receiver = *receiver;
-    if (receiver->draws == 0) {
+    if (light_choice_is_every_one(choice)) {
         prepare_every(choice, scene);
         return;
     }
@@ -81,6 +81,7 @@ void light_choice_prepare(light_choice *choice, const graze_scene *scene, const 
 }
 
 void light_choice_none(light_choice *choice) {
+    choice->tree = NULL;
     choice->root.candidates = 0;
 }
 
@@ -90,9 +91,9 @@ bool light_choice_is_possible(const light_choice *choice) {
 
 double light_expectation(const light_choice *choice, int light) {
     const light_tree *tree = choice->tree;
-    if (choice->root.candidates == 0 || tree->group_of[light] < 0)
+    if (!light_choice_is_possible(choice) || tree->group_of[light] < 0)
         return 0;
-    if (choice->receiver.draws == 0)
+    if (light_choice_is_every_one(choice))
         return (double)choice->root.of[light];
     int index = tree->group_of[light];
     size_t entry = tree->entry_of[light];

@@ -12,8 +12,11 @@ typedef struct light_receiver {
     const graze_surface *surface;        /* its frame, lobe and view; to be kept as long as the choice */
     rgb diffuse, glossy;                 /* reflectance for LIGHT_DIRECT lights */
     rgb ambient_diffuse, ambient_glossy; /* for LIGHT_AMBIENT ones; black where they are not wanted */
-    int draws; /* how many lights are chosen; 0: every light is sampled, of LIGHT_GROUP_MOST at most */
+    int draws;                           /* how many lights are chosen, or: */
 } light_receiver;
+
+/* As `draws`: none is chosen, every light is sampled. For LIGHT_GROUP_MOST lights at most. */
+enum { LIGHT_EVERY_ONE = 0 };
 
 /* The lights as one point sees them. Large: not to be copied. */
 typedef struct light_choice {
@@ -30,6 +33,11 @@ void light_choice_none(light_choice *);
 
 /* Whether any light could reach the point. */
 bool light_choice_is_possible(const light_choice *);
+
+/* Whether every light is to be sampled, rather than some that light_choose chooses. */
+static inline bool light_choice_is_every_one(const light_choice *choice) {
+    return choice->receiver.draws == LIGHT_EVERY_ONE;
+}
 
 /* How often the light is sampled, on the average: the probability with which light_choose takes it, times the number of
  * draws; or 1, where every light is. It is 0 only where the light cannot reach the point. */

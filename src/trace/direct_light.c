@@ -28,7 +28,7 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
             receiver.ambient_glossy = v->shading.specular;
     }
     bool first = p->depth == 0, every = context->scene->light_count <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER);
-    receiver.draws = every ? 0 : first ? CHOSEN_FIRST : CHOSEN_LATER;
+    receiver.draws = every ? LIGHT_EVERY_ONE : first ? CHOSEN_FIRST : CHOSEN_LATER;
     light_choice_prepare(lights, context->scene, &receiver);
 }
 
@@ -108,7 +108,7 @@ static void add_every_light(path *p, const vertex *v, const light_choice *lights
 
 void direct_light_add(path *p, const vertex *v, const light_choice *lights, lobe_choice choice) {
     double random[3];
-    if (lights->receiver.draws == 0) {
+    if (light_choice_is_every_one(lights)) {
         add_every_light(p, v, lights, choice);
         return;
     }

@@ -72,7 +72,7 @@ static void begin_controls(path *p, int count) {
 void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){0, 0, p->depth > 0};
-    if (lights->receiver.draws > 0 || p->scattered || p->context->settings->samples == 1)
+    if (!light_choice_is_every_one(lights) || p->scattered || p->context->settings->samples == 1)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
@@ -108,7 +108,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
     if (!context_samples_glows(p->context->settings) || v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
         return false;
     if (light_choice_is_possible(lights)) {
-        if (lights->receiver.draws > 0 || p->known.settled == 0)
+        if (!light_choice_is_every_one(lights) || p->known.settled == 0)
             return false;
         for (int i = 0; i < (int)scene->light_count; i++)
             if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
