@@ -88,6 +88,7 @@ static void follow(path *p, vertex v) {
 static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
+    p->first_group = points->group;
     p->throughput = (rgb){1, 1, 1};
     p->radiance = p->spread = p->ambient_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
@@ -98,12 +99,12 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->control_count = 0;
 }
 
-static path_sample path_end(const path *p, uint32_t first_group) {
+static path_sample path_end(const path *p) {
     path_sample sample;
     sample.radiance = p->radiance;
     sample.spread = p->spread;
     sample.control_count = p->control_count;
-    sample.noisy = p->sampler->group != first_group;
+    sample.noisy = p->sampler->group != p->first_group;
     sample.searching = p->searching;
     sample.integrated = p->integrated;
     rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
@@ -117,7 +118,6 @@ static path_sample path_end(const path *p, uint32_t first_group) {
 path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
     path p;
     path_start(&p, context, points);
-    uint32_t first_group = points->group;
     vertex v;
     if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
         p.radiance = emission_found(&p, first);
@@ -126,22 +126,22 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
         p.albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
         follow(&p, v);
     }
-    return path_end(&p, first_group);
+    return path_end(&p);
+}
+
+/* A path that begins at a vertex, as if it had been reflected diffusely that often. */
+static path_sample path_from(const path_context *context, sampler *points, vertex v, int ambient_depth) {
+    path p;
+    path_start(&p, context, points);
+    p.ambient_depth = ambient_depth;
+    follow(&p, v);
+    return path_end(&p);
 }
 
 path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
-    path p;
-    path_start(&p, context, points);
-    uint32_t first_group = points->group;
-    follow(&p, vertex_of_sensor(point, normal));
-    return path_end(&p, first_group);
+    return path_from(context, points, vertex_of_sensor(point, normal), 0);
 }
 
 path_sample path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points) {
-    path p;
-    path_start(&p, context, points);
-    uint32_t first_group = points->group;
-    p.ambient_depth = 1;
-    follow(&p, vertex_of_point(record->point, record->normal, record->surface));
-    return path_end(&p, first_group);
+    return path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1);
 }

@@ -40,6 +40,7 @@ typedef struct known_lights {
 typedef struct path {
     const path_context *context;
     sampler *sampler;
+    uint32_t first_group; /* that the sampler was at */
     rgb throughput, radiance;
     rgb spread; /* as in path_sample */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
