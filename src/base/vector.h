@@ -91,6 +91,13 @@ static inline rgb rgb_add(rgb a, rgb b) {
 static inline rgb rgb_multiply(rgb a, rgb b) {
     return (rgb){a.r * b.r, a.g * b.g, a.b * b.b};
 }
+/* Which share of `whole` a part of it is: 0 of nothing. */
+static inline double double_share(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
+}
+static inline rgb rgb_share(rgb part, rgb whole) {
+    return (rgb){double_share(part.r, whole.r), double_share(part.g, whole.g), double_share(part.b, whole.b)};
+}
 static inline rgb rgb_scale(double s, rgb a) {
     return (rgb){s * a.r, s * a.g, s * a.b};
 }

@@ -5,15 +5,6 @@ static void tell(const path *p, const path_event *event) {
     p->context->observer->tell(p->context->observer->user, event);
 }
 
-static double quotient(double contribution, double radiance) {
-    return radiance > 0 ? contribution / radiance : 0;
-}
-
-static rgb share(rgb contribution, rgb radiance) {
-    return (rgb){quotient(contribution.r, radiance.r), quotient(contribution.g, radiance.g),
-                 quotient(contribution.b, radiance.b)};
-}
-
 void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contribution) {
     path_event event = {.kind = PATH_RAY,
                         .depth = p->depth,
@@ -26,7 +17,7 @@ void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contr
         const scene_light *light = &p->context->scene->lights[hit->light];
         event.radiance = event.mirrored ? light_radiance(light, hit->direction, hit->normal)
                                         : light_radiance_at(light, hit->direction, hit->normal, hit->distance);
-        event.coefficient = share(contribution, event.radiance);
+        event.coefficient = rgb_share(contribution, event.radiance);
     }
     tell(p, &event);
 }
@@ -37,7 +28,7 @@ void observe_shadow_ray_told(const path *p, vec3 origin, const light_sample *sam
                         .depth = p->depth + 1,
                         .origin = origin,
                         .radiance = sample->radiance,
-                        .coefficient = share(contribution, sample->radiance),
+                        .coefficient = rgb_share(contribution, sample->radiance),
                         .contribution = contribution};
     event.hit = (path_hit){.surface = light->surface,
                            .light = sample->light,

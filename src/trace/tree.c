@@ -38,15 +38,6 @@ typedef struct telling {
     double further; /* its length; GRAZE_FAR where there is none, or it meets nothing */
 } telling;
 
-static double quotient(double contribution, double coefficient) {
-    return coefficient > 0 ? contribution / coefficient : 0;
-}
-
-static rgb divide(rgb contribution, rgb coefficient) {
-    return (rgb){quotient(contribution.r, coefficient.r), quotient(contribution.g, coefficient.g),
-                 quotient(contribution.b, coefficient.b)};
-}
-
 static double mirrored_distance(double distance, double further) {
     return distance < GRAZE_FAR && further < GRAZE_FAR ? distance + further : GRAZE_FAR;
 }
@@ -60,9 +51,9 @@ static void tell_ray(telling *t, const path_event *event, rgb contribution) {
                           .coefficient = rgb_scale(t->share, event->coefficient),
                           .contribution = rgb_scale(t->share, contribution),
                           .mirrored_distance = GRAZE_FAR};
-    ray.radiance = event->hit.light >= 0 ? event->radiance : divide(contribution, event->coefficient);
+    ray.radiance = event->hit.light >= 0 ? event->radiance : rgb_share(contribution, event->coefficient);
     if (event->kind == PATH_RAY) {
-        ray.mirrored = divide(t->mirrored, event->coefficient);
+        ray.mirrored = rgb_share(t->mirrored, event->coefficient);
         ray.mirrored_distance = mirrored_distance(event->hit.distance, t->further);
         t->mirrored = event->mirrored ? contribution : rgb_gray(0);
         t->further = event->mirrored ? event->hit.distance : GRAZE_FAR;
