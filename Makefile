@@ -28,9 +28,9 @@ USES_cal      := base
 USES_image    := base
 USES_fit      := brdf base
 USES_geometry := rad base
-USES_material := brdf rad image base
-USES_scene    := material geometry brdf rad image base
-USES_trace    := scene material geometry brdf rad image base
+USES_material := brdf rad base
+USES_scene    := material geometry brdf rad base
+USES_trace    := scene material geometry brdf rad base
 USES_picture  := trace scene material geometry brdf rad image base
 
 LIBS_base     := -pthread
