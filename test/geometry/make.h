@@ -1,4 +1,4 @@
-/* Shapes and random numbers for the tests of src/geometry. */
+/* Shapes for the tests of src/geometry. */
 #ifndef TEST_GEOMETRY_MAKE_H
 #define TEST_GEOMETRY_MAKE_H
 
@@ -13,6 +13,7 @@
 
 #include "base/angle.h"
 #include "geometry/shape.h"
+#include "support/dice.h"
 
 /* What shapes are made in: a fixture of the whole group of tests. */
 static arena *memory;
@@ -27,32 +28,6 @@ static inline int tear_down(void **state) {
     (void)state;
     arena_destroy(memory);
     return 0;
-}
-
-/* Xorshift64*: the same numbers everywhere. */
-typedef struct dice {
-    uint64_t state;
-} dice;
-
-static inline double roll(dice *d) {
-    d->state ^= d->state >> 12;
-    d->state ^= d->state << 25;
-    d->state ^= d->state >> 27;
-    return (double)(d->state * 0x2545F4914F6CDD1Du >> 11) * 0x1p-53;
-}
-
-static inline double roll_between(dice *d, double low, double high) {
-    return low + (high - low) * roll(d);
-}
-
-static inline vec3 roll_direction(dice *d) {
-    double z = roll_between(d, -1, 1), phi = 2 * PI * roll(d), r = sqrt(1 - z * z);
-    return vec3_normalize(vec3_make(r * cos(phi), r * sin(phi), z));
-}
-
-static inline vec3 roll_in_cube(dice *d, double half) {
-    double x = roll_between(d, -half, half), y = roll_between(d, -half, half);
-    return vec3_make(x, y, roll_between(d, -half, half));
 }
 
 /* What was reported: how many messages, and the last one. */

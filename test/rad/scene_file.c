@@ -337,7 +337,7 @@ static void messages_of_primitives(void **state) {
 
 static void numbers_round_correctly(void **state) {
     (void)state;
-    uint64_t seed = 0x9e3779b97f4a7c15u;
+    dice d = {0x9e3779b97f4a7c15u};
     for (int block = 0; block < 40; ++block) {
         enum { COUNT = 500 };
         static char text[COUNT * 48 + 100];
@@ -345,7 +345,7 @@ static void numbers_round_correctly(void **state) {
         size_t length = (size_t)sprintf(text, "void plasfunc x 2 a b 0 %d", COUNT);
         for (int i = 0; i < COUNT; ++i) {
             /* Digits, a point somewhere or nowhere, an exponent often small: all paths of the conversion. */
-            uint64_t bits = random_bits(&seed);
+            uint64_t bits = roll_bits(&d);
             int digits = 1 + (int)(bits % 24), point = (int)(bits >> 8 & 31), range = (bits >> 16 & 1) ? 30 : 330;
             char *w = words[i];
             if (bits >> 20 & 1)
@@ -353,7 +353,7 @@ static void numbers_round_correctly(void **state) {
             for (int k = 0; k < digits; ++k) {
                 if (k == point)
                     *w++ = '.';
-                *w++ = (char)('0' + random_bits(&seed) % 10);
+                *w++ = (char)('0' + roll_bits(&d) % 10);
             }
             *w = 0;
             if (bits >> 24 & 1)
@@ -383,18 +383,18 @@ static void survives_mutations(void **state) {
     static const char *const pieces[] = {
         "\"", "'",  " 999999999999 ", "\\\n", "#",      "void", "alias", "-", "e", ".", "\r",
         "\n", "\t", "inherit",        " 0 ",  "polygon"};
-    uint64_t seed = 1;
+    dice d = {1};
     int read = 0, refused = 0;
     for (int round = 0; round < 3000; ++round) {
         char text[sizeof good + 200];
         size_t length = sizeof good - 1;
         memcpy(text, good, length);
-        for (int change = 1 + (int)(random_bits(&seed) % 3); change > 0; --change) {
-            size_t at = random_bits(&seed) % length;
-            const char *piece = pieces[random_bits(&seed) % (sizeof pieces / sizeof *pieces)];
-            switch (random_bits(&seed) % 4) {
+        for (int change = 1 + (int)(roll_bits(&d) % 3); change > 0; --change) {
+            size_t at = roll_bits(&d) % length;
+            const char *piece = pieces[roll_bits(&d) % (sizeof pieces / sizeof *pieces)];
+            switch (roll_bits(&d) % 4) {
             case 0:
-                text[at] = (char)random_bits(&seed);
+                text[at] = (char)roll_bits(&d);
                 break;
             case 1:
                 length = at + 1;

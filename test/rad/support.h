@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "rad/scene_file.h"
+#include "support/dice.h"
 
 /* Everything reported, one message a line: "error: ..." or "warning: ...". */
 typedef struct messages {
@@ -107,14 +108,6 @@ static inline void assert_contains(const char *text, const char *wanted) {
         print_error("\"%s\" is not in:\n%s", wanted, text);
         fail();
     }
-}
-
-/* A small generator with a fixed course: xorshift64*. */
-static inline uint64_t random_bits(uint64_t *state) {
-    *state ^= *state >> 12;
-    *state ^= *state << 25;
-    *state ^= *state >> 27;
-    return *state * 0x2545f4914f6cdd1du;
 }
 
 #endif

@@ -212,17 +212,17 @@ static void view_files_of_anything(void **state) {
     (void)state;
     static const char *const pieces[] = {"VIEW=", " -vp", " -vt", "v", " 1", " -vh 3", "\n",
                                          "rpict", "/",    "\r",   " ", "\t", "1e999"};
-    uint64_t seed = 3;
+    dice d = {3};
     int found = 0;
     for (int round = 0; round < 2000; ++round) {
         char text[300] = "VIEW=";
         size_t length = 5;
-        for (int n = (int)(random_bits(&seed) % 20); n > 0; --n) {
-            const char *piece = pieces[random_bits(&seed) % (sizeof pieces / sizeof *pieces)];
+        for (int n = (int)(roll_bits(&d) % 20); n > 0; --n) {
+            const char *piece = pieces[roll_bits(&d) % (sizeof pieces / sizeof *pieces)];
             memcpy(text + length, piece, strlen(piece));
             length += strlen(piece);
-            if (random_bits(&seed) % 64 == 0)
-                text[length++] = (char)random_bits(&seed);
+            if (roll_bits(&d) % 64 == 0)
+                text[length++] = (char)roll_bits(&d);
         }
         write_bytes("any.vf", text, length);
         rad_view v = rad_view_default();

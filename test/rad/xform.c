@@ -83,12 +83,12 @@ static void splits_anything(void **state) {
     (void)state;
     static const char *const pieces[] = {"xform ", " | ", "cat ", " ",    "'",           "\"",
                                          "\\",     "a",   "$a",   "\\\n", "| xform -mx", "#"};
-    uint64_t seed = 7;
+    dice d = {7};
     int taken = 0;
     for (int round = 0; round < 20000; ++round) {
         char text[256] = "";
-        for (int n = (int)(random_bits(&seed) % 12); n > 0; --n)
-            strcat(text, pieces[random_bits(&seed) % (sizeof pieces / sizeof *pieces)]);
+        for (int n = (int)(roll_bits(&d) % 12); n > 0; --n)
+            strcat(text, pieces[roll_bits(&d) % (sizeof pieces / sizeof *pieces)]);
         char *exact = malloc(strlen(text) + 1); /* so that a sanitizer sees the end */
         assert_non_null(exact);
         strcpy(exact, text);

@@ -12,6 +12,7 @@
 #include "base/vector.h"
 #include "graze/brdf.h"
 #include "graze/trace.h"
+#include "support/dice.h"
 
 /* Where a scene stands: what it is made of is turned, perhaps mirrored, scaled and moved. */
 typedef struct placement {
@@ -39,7 +40,7 @@ typedef struct random_scene {
     graze_brdf_model model;
     graze_ray rays[RANDOM_RAYS];
     placement placement;
-    uint64_t dice;
+    dice dice;
     bool open; /* a floor and lights around, or a closed room */
     int shape_count;
     vec3 targets[64]; /* places that rays aim at */
@@ -47,37 +48,6 @@ typedef struct random_scene {
     size_t length;
     char text[RANDOM_TEXT];
 } random_scene;
-
-/* Xorshift64*. */
-static inline double roll(random_scene *s) {
-    s->dice ^= s->dice >> 12;
-    s->dice ^= s->dice << 25;
-    s->dice ^= s->dice >> 27;
-    return (double)(s->dice * 0x2545F4914F6CDD1Du >> 11) * 0x1p-53;
-}
-
-static inline double roll_between(random_scene *s, double low, double high) {
-    return low + (high - low) * roll(s);
-}
-
-/* Evenly over orders of magnitude. */
-static inline double roll_size(random_scene *s, double low, double high) {
-    return low * pow(high / low, roll(s));
-}
-
-static inline int roll_below(random_scene *s, int count) {
-    return (int)(roll(s) * count);
-}
-
-static inline vec3 roll_direction(random_scene *s) {
-    double z = roll_between(s, -1, 1), phi = 2 * PI * roll(s), r = sqrt(1 - z * z);
-    return vec3_make(r * cos(phi), r * sin(phi), z);
-}
-
-static inline vec3 roll_in_box(random_scene *s, vec3 lower, vec3 upper) {
-    double x = roll_between(s, lower.x, upper.x), y = roll_between(s, lower.y, upper.y);
-    return vec3_make(x, y, roll_between(s, lower.z, upper.z));
-}
 
 static inline vec3 place_vector(const placement *p, vec3 v) {
     if (p->mirrored)
@@ -145,12 +115,12 @@ static inline void add_polygon(random_scene *s, const char *material, vec3 at, c
 /* Triangles, rectangles, stars, or squares with a square hole cut by a seam. */
 static inline void add_flat_shape(random_scene *s, const char *material, vec3 at, vec3 normal, double size) {
     frame f = frame_around(normal);
-    double flat[32][2], ratio = roll_between(s, 0.2, 1);
-    int form = roll_below(s, 4), count = 0;
+    double flat[32][2], ratio = roll_between(&s->dice, 0.2, 1);
+    int form = roll_below(&s->dice, 4), count = 0;
     if (form == 0) {
         count = 3;
     } else if (form == 1) {
-        count = 5 + roll_below(s, 8);
+        count = 5 + roll_below(&s->dice, 8);
     } else {
         static const double square[10][2] = {{-1, -1},   {1, -1},   {1, 1},   {-1, 1},   {-1, -1},
                                              {-.5, -.5}, {-.5, .5}, {.5, .5}, {.5, -.5}, {-.5, -.5}};
@@ -161,7 +131,8 @@ static inline void add_flat_shape(random_scene *s, const char *material, vec3 at
         }
     }
     for (int i = 0; form < 2 && i < count; i++) {
-        double angle = 2 * PI * (i + roll_between(s, 0.1, 0.9)) / count, radius = size * roll_between(s, 0.3, 1);
+        double angle = 2 * PI * (i + roll_between(&s->dice, 0.1, 0.9)) / count,
+               radius = size * roll_between(&s->dice, 0.3, 1);
         flat[i][0] = radius * cos(angle);
         flat[i][1] = radius * sin(angle);
     }
@@ -173,11 +144,11 @@ static inline void add_ball(random_scene *s, const char *material, vec3 at, doub
     print_point(s, at);
     print_length(s, radius);
     end_shape(s);
-    note_target(s, vec3_add_scaled(at, radius, roll_direction(s)));
+    note_target(s, vec3_add_scaled(at, radius, roll_direction(&s->dice)));
 }
 
 static inline void add_ring(random_scene *s, const char *material, vec3 at, vec3 normal, double radius) {
-    double hole = roll(s) < 0.5 ? 0 : radius * roll_between(s, 0.1, 0.8);
+    double hole = roll(&s->dice) < 0.5 ? 0 : radius * roll_between(&s->dice, 0.1, 0.8);
     begin_shape(s, material, "ring", 8);
     print_point(s, at);
     print_vector(s, place_vector(&s->placement, normal));
@@ -189,8 +160,9 @@ static inline void add_ring(random_scene *s, const char *material, vec3 at, vec3
 
 /* Cylinders, tubes, cones and cups. */
 static inline void add_cone(random_scene *s, const char *material, vec3 at, double size, bool inward) {
-    vec3 direction = roll_direction(s), axis = vec3_scale(size * roll_between(s, 0.3, 2), direction);
-    double radius = size * roll_between(s, 0.1, 0.7), growth = roll_below(s, 2) ? roll_between(s, 0, 2) : 1;
+    vec3 direction = roll_direction(&s->dice), axis = vec3_scale(size * roll_between(&s->dice, 0.3, 2), direction);
+    double radius = size * roll_between(&s->dice, 0.1, 0.7),
+           growth = roll_below(&s->dice, 2) ? roll_between(&s->dice, 0, 2) : 1;
     vec3 p0 = vec3_add_scaled(at, -0.5, axis), p1 = vec3_add_scaled(at, 0.5, axis);
     if (growth < 0.3)
         growth = 0;
@@ -209,44 +181,44 @@ static inline void add_cone(random_scene *s, const char *material, vec3 at, doub
 }
 
 static inline void add_shape(random_scene *s, const char *material, vec3 at, double size) {
-    bool inward = roll(s) < 0.3;
-    switch (roll_below(s, 4)) {
+    bool inward = roll(&s->dice) < 0.3;
+    switch (roll_below(&s->dice, 4)) {
     case 0:
         add_ball(s, material, at, size, inward);
         break;
     case 1:
-        add_ring(s, material, at, roll_direction(s), size);
+        add_ring(s, material, at, roll_direction(&s->dice), size);
         break;
     case 2:
         add_cone(s, material, at, size, inward);
         break;
     default:
-        add_flat_shape(s, material, at, roll_direction(s), size);
+        add_flat_shape(s, material, at, roll_direction(&s->dice), size);
     }
 }
 
 static inline double roll_roughness(random_scene *s) {
-    return s->kind == RANDOM_EASY          ? roll_size(s, 0.15, 1)
-           : s->kind == RANDOM_SHARP_GLOSS ? roll_size(s, 1.1e-3, 0.3)
-                                           : roll_size(s, 0.05, 1);
+    return s->kind == RANDOM_EASY          ? roll_size(&s->dice, 0.15, 1)
+           : s->kind == RANDOM_SHARP_GLOSS ? roll_size(&s->dice, 1.1e-3, 0.3)
+                                           : roll_size(&s->dice, 0.05, 1);
 }
 
 static inline void add_material(random_scene *s, int number) {
     static const char *const types[] = {"plastic", "metal", "plastic2", "metal2"};
-    int type = roll_below(s, 4);
-    bool mirror = type < 2 && s->kind != RANDOM_SMALL_LIGHT && roll(s) < 0.15;
-    double specularity = type % 2 ? roll_between(s, 0.1, 0.9) : roll_between(s, 0, 0.2);
+    int type = roll_below(&s->dice, 4);
+    bool mirror = type < 2 && s->kind != RANDOM_SMALL_LIGHT && roll(&s->dice) < 0.15;
+    double specularity = type % 2 ? roll_between(&s->dice, 0.1, 0.9) : roll_between(&s->dice, 0, 0.2);
     double u = mirror ? 0 : roll_roughness(s), v = type < 2 ? u : roll_roughness(s);
     print_scene(s, "void %s m%d", types[type], number);
     if (type < 2) {
         print_scene(s, " 0 0 5");
     } else {
         print_scene(s, " 4");
-        print_vector(s, place_vector(&s->placement, roll_direction(s)));
+        print_vector(s, place_vector(&s->placement, roll_direction(&s->dice)));
         print_scene(s, " . 0 6");
     }
     for (int i = 0; i < 3; i++)
-        print_scene(s, " %.17g", roll_between(s, 0, 0.85));
+        print_scene(s, " %.17g", roll_between(&s->dice, 0, 0.85));
     print_scene(s, " %.17g %.17g", specularity, u);
     if (type >= 2)
         print_scene(s, " %.17g", v);
@@ -255,15 +227,15 @@ static inline void add_material(random_scene *s, int number) {
 
 static inline const char *roll_material(random_scene *s) {
     static const char *const names[RANDOM_MATERIALS] = {"m0", "m1", "m2", "m3"};
-    return names[roll_below(s, RANDOM_MATERIALS)];
+    return names[roll_below(&s->dice, RANDOM_MATERIALS)];
 }
 
 /* The material of a lamp; of a spotlight, that shines along `aim`. */
 static inline void add_emitter(random_scene *s, int number, vec3 aim, bool flat) {
-    double form = roll(s);
+    double form = roll(&s->dice);
     double radiance[3];
     for (int i = 0; i < 3; i++)
-        radiance[i] = roll_size(s, 3, 30);
+        radiance[i] = roll_size(&s->dice, 3, 30);
     const char *type = form < 0.6 ? "light" : form < 0.85 || !flat ? "glow" : "spotlight";
     print_scene(s, "void %s l%d 0 0 %d %.17g %.17g %.17g", type, number,
                 type[0] == 'l'   ? 3
@@ -271,11 +243,11 @@ static inline void add_emitter(random_scene *s, int number, vec3 aim, bool flat)
                                  : 7,
                 radiance[0], radiance[1], radiance[2]);
     if (type[0] == 'g') {
-        double reach = roll(s);
-        print_length(s, reach < 0.5 ? 0 : reach < 0.9 ? roll_between(s, 1, 8) : -1);
+        double reach = roll(&s->dice);
+        print_length(s, reach < 0.5 ? 0 : reach < 0.9 ? roll_between(&s->dice, 1, 8) : -1);
     } else if (type[0] == 's') {
-        double focus = s->placement.scale * roll_between(s, 0.3, 3);
-        print_scene(s, " %.17g", roll_between(s, 40, 170));
+        double focus = s->placement.scale * roll_between(&s->dice, 0.3, 3);
+        print_scene(s, " %.17g", roll_between(&s->dice, 40, 170));
         print_vector(s, vec3_scale(focus, place_vector(&s->placement, aim)));
     }
     print_scene(s, "\n");
@@ -286,26 +258,26 @@ static inline void add_lamp(random_scene *s, int number, vec3 lower, vec3 upper,
     char name[16];
     snprintf(name, sizeof name, "l%d", number);
     bool small = s->kind == RANDOM_SMALL_LIGHT;
-    double size = small ? roll_size(s, 1e-3, 0.1) : roll_between(s, 0.4, 1.2);
-    vec3 at = roll_in_box(s, lower, upper);
+    double size = small ? roll_size(&s->dice, 1e-3, 0.1) : roll_between(&s->dice, 0.4, 1.2);
+    vec3 at = roll_in_box(&s->dice, lower, upper);
     vec3 inwards = vec3_normalize(vec3_subtract(vec3_scale(0.5, vec3_add(lower, upper)), at));
-    vec3 normal = vec3_normalize(vec3_add_scaled(inwards, 0.7, roll_direction(s)));
-    int form = roll_below(s, open ? 6 : 5);
+    vec3 normal = vec3_normalize(vec3_add_scaled(inwards, 0.7, roll_direction(&s->dice)));
+    int form = roll_below(&s->dice, open ? 6 : 5);
     bool flat = form == 1 || form >= 3;
     add_emitter(s, number, normal, flat && form < 5);
     if (form == 0) {
-        add_ball(s, name, at, size / 2, roll(s) < 0.1);
+        add_ball(s, name, at, size / 2, roll(&s->dice) < 0.1);
     } else if (form == 1) {
         add_ring(s, name, at, normal, size);
     } else if (form == 2) {
-        add_cone(s, name, at, size, roll(s) < 0.2);
+        add_cone(s, name, at, size, roll(&s->dice) < 0.2);
     } else if (form < 5) {
         add_flat_shape(s, name, at, normal, size);
     } else {
-        vec3 up = vec3_normalize(vec3_add(vec3_make(0, 0, 1.2), roll_direction(s)));
+        vec3 up = vec3_normalize(vec3_add(vec3_make(0, 0, 1.2), roll_direction(&s->dice)));
         print_scene(s, "%s source s%d 0 0 4", name, s->shape_count++);
         print_vector(s, place_vector(&s->placement, up));
-        print_scene(s, " %.17g\n", small ? roll_size(s, 0.1, 5) : roll_between(s, 20, 60));
+        print_scene(s, " %.17g\n", small ? roll_size(&s->dice, 0.1, 5) : roll_between(&s->dice, 20, 60));
     }
 }
 
@@ -329,22 +301,23 @@ static inline void add_floor(random_scene *s, double half) {
 }
 
 static inline void add_sky(random_scene *s) {
-    double radiance = roll(s);
+    double radiance = roll(&s->dice);
     print_scene(s, "void glow sky_glow 0 0 4 %.17g %.17g %.17g 0\nsky_glow source sky 0 0 4", radiance, 0.5 * radiance,
                 0.8 * radiance);
     print_vector(s, place_vector(&s->placement, vec3_make(0, 0, 1)));
-    print_scene(s, " %d\n", roll(s) < 0.5 ? 180 : 360);
+    print_scene(s, " %d\n", roll(&s->dice) < 0.5 ? 180 : 360);
 }
 
 /* Shapes in a box, some of them in a cluster a hundred to a thousand times smaller. */
 static inline void add_shapes(random_scene *s, vec3 lower, vec3 upper) {
-    vec3 cluster = roll_in_box(s, lower, upper);
-    double nested = roll(s) < 0.3 ? roll_size(s, 1e-3, 1e-2) : 1;
-    int count = 1 + roll_below(s, 8);
+    vec3 cluster = roll_in_box(&s->dice, lower, upper);
+    double nested = roll(&s->dice) < 0.3 ? roll_size(&s->dice, 1e-3, 1e-2) : 1;
+    int count = 1 + roll_below(&s->dice, 8);
     for (int i = 0; i < count; i++) {
         bool small = nested < 1 && i < 4;
-        vec3 at = small ? vec3_add_scaled(cluster, 2 * nested, roll_direction(s)) : roll_in_box(s, lower, upper);
-        double size = small ? nested * roll_between(s, 0.3, 1) : roll_size(s, 0.05, 1.5);
+        vec3 at = small ? vec3_add_scaled(cluster, 2 * nested, roll_direction(&s->dice))
+                        : roll_in_box(&s->dice, lower, upper);
+        double size = small ? nested * roll_between(&s->dice, 0.3, 1) : roll_size(&s->dice, 0.05, 1.5);
         add_shape(s, roll_material(s), at, size);
     }
 }
@@ -352,16 +325,17 @@ static inline void add_shapes(random_scene *s, vec3 lower, vec3 upper) {
 /* Towards something, from afar, from close by, or grazing the floor. */
 static inline void roll_rays(random_scene *s, vec3 lower, vec3 upper) {
     for (int i = 0; i < RANDOM_RAYS; i++) {
-        vec3 target = s->targets[roll_below(s, s->target_count)];
-        vec3 origin = roll_in_box(s, lower, upper);
-        double view = roll(s);
+        vec3 target = s->targets[roll_below(&s->dice, s->target_count)];
+        vec3 origin = roll_in_box(&s->dice, lower, upper);
+        double view = roll(&s->dice);
         if (view < 0.3) {
-            target = roll_in_box(s, lower, upper);
+            target = roll_in_box(&s->dice, lower, upper);
             target.z = 0;
-            origin.z = vec3_length(vec3_make(target.x - origin.x, target.y - origin.y, 0)) * roll_size(s, 1e-3, 0.1);
+            origin.z =
+                vec3_length(vec3_make(target.x - origin.x, target.y - origin.y, 0)) * roll_size(&s->dice, 1e-3, 0.1);
         } else if (view < 0.5) {
-            double away = roll_size(s, 1e-3, 1);
-            origin = vec3_add_scaled(target, away, roll_direction(s));
+            double away = roll_size(&s->dice, 1e-3, 1);
+            origin = vec3_add_scaled(target, away, roll_direction(&s->dice));
         }
         vec3 direction = place_vector(&s->placement, vec3_subtract(target, origin));
         s->rays[i] = (graze_ray){.origin = place_point(&s->placement, origin), .direction = direction};
@@ -370,51 +344,51 @@ static inline void roll_rays(random_scene *s, vec3 lower, vec3 upper) {
 
 static inline void roll_settings(random_scene *s) {
     s->settings = graze_trace_defaults();
-    s->settings.ambient_bounces = roll_below(s, 4);
-    s->settings.quantity = roll(s) < 0.15 ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
-    s->settings.back_faces_visible = roll(s) < 0.9;
-    s->settings.specular_threshold = roll(s) < 0.9 ? 0 : 0.15;
-    s->settings.lights_visible = roll(s) < 0.9;
-    double limit = roll(s);
+    s->settings.ambient_bounces = roll_below(&s->dice, 4);
+    s->settings.quantity = roll(&s->dice) < 0.15 ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
+    s->settings.back_faces_visible = roll(&s->dice) < 0.9;
+    s->settings.specular_threshold = roll(&s->dice) < 0.9 ? 0 : 0.15;
+    s->settings.lights_visible = roll(&s->dice) < 0.9;
+    double limit = roll(&s->dice);
     s->settings.reflection_limit = limit < 0.8 ? 0 : limit < 0.9 ? 3 : -3;
     s->settings.minimum_weight = limit < 0.9 ? 1e-4 : 0.05;
-    if (roll(s) < 0.2)
+    if (roll(&s->dice) < 0.2)
         s->settings.ambient_value = (graze_rgb){0.2, 0.3, 0.4};
-    double model = roll(s);
-    s->model = model < 0.8 ? GRAZE_BRDF_GMD : (graze_brdf_model)roll_below(s, GRAZE_BRDF_MODEL_COUNT);
+    double model = roll(&s->dice);
+    s->model = model < 0.8 ? GRAZE_BRDF_GMD : (graze_brdf_model)roll_below(&s->dice, GRAZE_BRDF_MODEL_COUNT);
 }
 
 /* The scene of that number, placed as told. */
 static inline void random_scene_make(random_scene *s, uint64_t number, placement where) {
-    *s = (random_scene){.placement = where, .dice = (number + 1) * 0x9E3779B97F4A7C15u};
+    *s = (random_scene){.placement = where, .dice = {(number + 1) * 0x9E3779B97F4A7C15u}};
     for (int i = 0; i < 4; i++)
-        (void)roll(s);
+        (void)roll(&s->dice);
     s->kind = (random_kind)(number % RANDOM_KINDS);
     roll_settings(s);
     for (int i = 0; i < RANDOM_MATERIALS; i++)
         add_material(s, i);
-    bool open = s->open = roll(s) < 0.4;
-    vec3 upper = roll_in_box(s, vec3_make(1.5, 1.5, 2), vec3_make(5, 5, 4));
+    bool open = s->open = roll(&s->dice) < 0.4;
+    vec3 upper = roll_in_box(&s->dice, vec3_make(1.5, 1.5, 2), vec3_make(5, 5, 4));
     vec3 lower = {-upper.x, -upper.y, 0};
     if (open)
         add_floor(s, 20);
     else
         add_room(s, lower, upper);
-    if (open && s->kind != RANDOM_SMALL_LIGHT && roll(s) < 0.5)
+    if (open && s->kind != RANDOM_SMALL_LIGHT && roll(&s->dice) < 0.5)
         add_sky(s);
     add_shapes(s, lower, upper);
-    int lamps = 1 + roll_below(s, 3) + (roll(s) < 0.1 ? 8 : 0);
+    int lamps = 1 + roll_below(&s->dice, 3) + (roll(&s->dice) < 0.1 ? 8 : 0);
     for (int i = 0; i < lamps; i++)
         add_lamp(s, i, lower, upper, open);
     roll_rays(s, lower, upper);
 }
 
 /* Anywhere, from a tenth of the size to a thousand times it. */
-static inline placement random_placement(random_scene *dice) {
-    placement p = {.mirrored = roll(dice) < 0.5, .scale = roll_size(dice, 0.1, 1e3)};
-    p.axes = frame_around(roll_direction(dice));
-    double away = p.scale * roll_size(dice, 0.1, 1e4);
-    p.at = vec3_scale(away, roll_direction(dice));
+static inline placement random_placement(dice *d) {
+    placement p = {.mirrored = roll(d) < 0.5, .scale = roll_size(d, 0.1, 1e3)};
+    p.axes = frame_around(roll_direction(d));
+    double away = p.scale * roll_size(d, 0.1, 1e4);
+    p.at = vec3_scale(away, roll_direction(d));
     return p;
 }
 

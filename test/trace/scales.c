@@ -119,7 +119,7 @@ static void no_light_leaks_into_a_small_globe(void **state) {
     (void)state;
     enum { N = 12 };
     static random_scene s;
-    s = (random_scene){.placement = unplaced, .dice = 99};
+    s = (random_scene){.placement = unplaced, .dice = {99}};
     vec3 center = {800, 600, 5};
     double radius = 1e-3;
     print_scene(&s, BUILDING "void light l 0 0 3 1e9 1e9 1e9\nl source sky 0 0 4 0 0 1 360\n"
@@ -141,9 +141,9 @@ static void no_light_leaks_into_a_small_globe(void **state) {
         }
     graze_scene *scene = load(s.text);
     for (int i = 0; i < 60; i++) {
-        vec3 offset = roll_direction(&s);
-        vec3 origin = vec3_add_scaled(center, 0.8 * radius * roll(&s), offset);
-        assert_dark(scene, i, origin, roll_direction(&s));
+        vec3 offset = roll_direction(&s.dice);
+        vec3 origin = vec3_add_scaled(center, 0.8 * radius * roll(&s.dice), offset);
+        assert_dark(scene, i, origin, roll_direction(&s.dice));
     }
     graze_scene_destroy(scene);
 }
@@ -158,7 +158,7 @@ static void no_light_leaks_into_rooms(void **state) {
             placement p = {
                 .axes = frame_around(vec3_normalize(vec3_make(0.3, -0.5, 0.8))), .scale = h, .at = {x, y, 0}};
             static random_scene s;
-            s = (random_scene){.placement = p, .dice = 5};
+            s = (random_scene){.placement = p, .dice = {5}};
             print_scene(&s, "void light l 0 0 3 1e9 1e9 1e9\nl source sky 0 0 4 0 0 1 360\n"
                             "void metal m0 0 0 5 .9 .9 .9 .7 .1\nvoid metal m1 0 0 5 .9 .9 .9 .2 .3\n"
                             "void metal m2 0 0 5 .9 .9 .9 .7 .01\nvoid plastic m3 0 0 5 .9 .9 .9 0 0\n");
@@ -166,11 +166,11 @@ static void no_light_leaks_into_rooms(void **state) {
             add_ball(&s, "m0", vec3_make(0.5, 0.5, 0.25), 0.25, false);
             add_ring(&s, "m1", vec3_make(-0.5, 0.5, 0), vec3_make(0, 0, 1), 0.3);
             for (int k = 0; k < 8; k++)
-                add_shape(&s, "m0", roll_in_box(&s, vec3_make(-1, -1, 0), vec3_make(1, 1, 1)), 0.3);
+                add_shape(&s, "m0", roll_in_box(&s.dice, vec3_make(-1, -1, 0), vec3_make(1, 1, 1)), 0.3);
             graze_scene *scene = load(s.text);
             for (int ray = 0; ray < 120; ray++) {
-                vec3 origin = roll_in_box(&s, vec3_make(-0.9, -0.9, 0.1), vec3_make(0.9, 0.9, 0.9));
-                assert_dark(scene, ray, place_point(&p, origin), roll_direction(&s));
+                vec3 origin = roll_in_box(&s.dice, vec3_make(-0.9, -0.9, 0.1), vec3_make(0.9, 0.9, 0.9));
+                assert_dark(scene, ray, place_point(&p, origin), roll_direction(&s.dice));
             }
             graze_scene_destroy(scene);
         }

@@ -53,9 +53,9 @@ static void show(const random_scene *s, uint64_t number, int ray) {
 
 /* Every other scene stands somewhere, in some size. */
 static graze_scene *make(random_scene *s, uint64_t number) {
-    random_scene dice = {.dice = number * 77 + 5};
-    (void)roll(&dice);
-    random_scene_make(s, number, number % 2 ? random_placement(&dice) : unplaced);
+    dice d = {number * 77 + 5};
+    (void)roll(&d);
+    random_scene_make(s, number, number % 2 ? random_placement(&d) : unplaced);
     const graze_model_choice choice = {NULL, s->model};
     graze_scene *scene = scene_from_text_with(s->text, &(graze_scene_settings){.models = &choice, .model_count = 1});
     if (!scene) {

@@ -27,10 +27,10 @@ typedef struct twins {
 } twins;
 
 static void make_twins(twins *t, uint64_t number) {
-    random_scene dice = {.dice = number * 131 + 7};
-    (void)roll(&dice);
+    dice d = {number * 131 + 7};
+    (void)roll(&d);
     random_scene_make(&t->here, number, unplaced);
-    random_scene_make(&t->there, number, random_placement(&dice));
+    random_scene_make(&t->there, number, random_placement(&d));
     t->scene_here = load(&t->here);
     t->scene_there = load(&t->there);
 }
@@ -61,12 +61,12 @@ static void rays_meet_the_same(void **state) {
     int different = 0, hits = 0;
     for (uint64_t number = 0; number < SCENES; number++) {
         make_twins(&t, number);
-        random_scene dice = {.dice = number * 17 + 3};
-        (void)roll(&dice);
+        dice d = {number * 17 + 3};
+        (void)roll(&d);
         graze_trace_settings s = graze_trace_defaults();
         for (int i = 0; i < CASTS; i++) {
-            vec3 origin = roll_in_box(&dice, vec3_make(-1.5, -1.5, 0.1), vec3_make(1.5, 1.5, 1.9));
-            vec3 direction = roll_direction(&dice);
+            vec3 origin = roll_in_box(&d, vec3_make(-1.5, -1.5, 0.1), vec3_make(1.5, 1.5, 1.9));
+            vec3 direction = roll_direction(&d);
             graze_ray here = {.origin = origin, .direction = direction};
             graze_ray there = {.origin = place_point(&t.there.placement, origin),
                                .direction = place_vector(&t.there.placement, direction)};
