@@ -78,7 +78,7 @@ static bool set_view(checkpoint *c) {
     for (int i = 0; i < CHECKPOINT_VIEW_NUMBERS; i++)
         *numbers[i] = c->head.view[i];
     rad_view again = c->view;
-    return rad_view_prepare(&again, NULL) == GRAZE_OK;
+    return rad_view_prepare(&again, NULL, NULL) == GRAZE_OK;
 }
 
 /* Finds the parts of the file. Null, or what is wrong. */

@@ -8,7 +8,6 @@
 
 #include "base/angle.h"
 #include "base/number.h"
-#include "base/text.h"
 
 static const double tiny = 1e-6;          /* Radiance's slack on limits */
 static const double largest = 1e100;      /* of any parameter: products of them stay in a double's range */
@@ -93,10 +92,14 @@ graze_status rad_view_option(rad_view *view, int count, const char *const *words
 
 /* ---- View files ---- */
 
+static const char blanks[] = " \t\n\r\v\f";
+
+static const char keyword[] = "VIEW=";
+
 /* Whether the line begins with `VIEW=` or the name of a program that takes a view. */
 static bool is_view_line(const char *line) {
-    static const char *const names[] = {"VIEW=", "rpict", "rvu", "rpiece", "rxpiece", "pinterp", "rview", "gpict"};
-    const char *end = line + strcspn(line, " \t\r\v\f");
+    static const char *const names[] = {keyword, "rpict", "rvu", "rpiece", "rxpiece", "pinterp", "rview", "gpict"};
+    const char *end = line + strcspn(line, blanks);
     const char *name = line;
     for (const char *p = line; p < end; ++p)
         if (*p == '/')
@@ -107,47 +110,85 @@ static bool is_view_line(const char *line) {
     return false;
 }
 
-/* Applies the view options of the line, passing over everything else; gives their number. */
-static int read_view_options(rad_view *view, const char *line) {
-    enum { WORDS_MOST = 4 };
-    int found = 0;
-    const char *p = line;
-    for (;;) {
-        while (text_is_blank(*p))
-            ++p;
-        if (!*p)
-            return found;
-        /* A copy of an option's longest form, for the words of the line are not terminated. */
-        char copy[WORDS_MOST * 64];
-        const char *words[WORDS_MOST];
-        const char *ends[WORDS_MOST];
-        int count = 0;
-        char *out = copy;
-        for (const char *q = p; *q && count < WORDS_MOST;) {
-            size_t length = strcspn(q, " \t\r\v\f");
-            if (length >= 64)
-                break;
-            memcpy(out, q, length);
-            out[length] = 0;
-            words[count] = out;
-            out += length + 1;
-            q += length;
-            ends[count++] = q;
-            while (text_is_blank(*q))
-                ++q;
-        }
-        int used = 0;
-        if (count > 0 && *p == '-' && rad_view_option(view, count, words, &used, NULL, NULL) == GRAZE_OK && used > 0) {
-            p = ends[used - 1];
-            ++found;
-        } else {
-            p += strcspn(p, " \t\r\v\f");
-        }
+/* An option in its longest form: the words of a line, which are not terminated there. */
+enum { WORDS_MOST = 4 };
+typedef struct option_words {
+    char text[WORDS_MOST * 64];
+    const char *words[WORDS_MOST];
+    const char *ends[WORDS_MOST]; /* in the line */
+    int count;
+} option_words;
+
+static void copy_words(option_words *w, const char *line) {
+    char *out = w->text;
+    w->count = 0;
+    while (*line && w->count < WORDS_MOST) {
+        size_t length = strcspn(line, blanks);
+        if (length >= 64)
+            return;
+        memcpy(out, line, length);
+        out[length] = 0;
+        w->words[w->count] = out;
+        out += length + 1;
+        line += length;
+        w->ends[w->count++] = line;
+        line += strspn(line, blanks);
     }
 }
 
-bool rad_view_read_line(rad_view *view, const char *line) {
-    return is_view_line(line) && read_view_options(view, line) > 0;
+/* What a view line may hold besides good view options. */
+typedef enum tolerance { ANYTHING, OTHER_WORDS, NOTHING } tolerance;
+
+/* Applies the view options of the line; gives their number. */
+static graze_status read_view_options(rad_view *view, const char *line, tolerance tolerated, int *found,
+                                      const place *where, const graze_report *report) {
+    const char *p = line;
+    *found = 0;
+    if (!strncmp(p, keyword, strlen(keyword)))
+        p += strlen(keyword);
+    else
+        p += strcspn(p, blanks);
+    for (p += strspn(p, blanks); *p; p += strspn(p, blanks)) {
+        option_words w;
+        place here = where ? *where : (place){0};
+        here.column = (int)(p - line) + 1;
+        copy_words(&w, p);
+        int used = 0;
+        graze_status status = GRAZE_OK;
+        if (*p == '-')
+            status = rad_view_option(view, w.count, w.words, &used, &here, tolerated > ANYTHING ? report : NULL);
+        if (status != GRAZE_OK && tolerated > ANYTHING)
+            return status;
+        if (used == 0 && tolerated == NOTHING)
+            return report_error(report, &here, "'%.*s' is no view option", (int)strcspn(p, blanks), p);
+        p = used > 0 ? w.ends[used - 1] : p + strcspn(p, blanks);
+        *found += used > 0;
+    }
+    return *found == 0 && tolerated == NOTHING ? report_error(report, where, "VIEW= without a view option") : GRAZE_OK;
+}
+
+graze_status rad_view_take_line(rad_view *view, const char *line, bool *found, const place *where,
+                                const graze_report *report) {
+    *found = false;
+    if (!is_view_line(line))
+        return GRAZE_OK;
+    rad_view taken = *view;
+    int options;
+    tolerance tolerated = strncmp(line, keyword, strlen(keyword)) == 0 ? NOTHING : OTHER_WORDS;
+    graze_status status = read_view_options(&taken, line, tolerated, &options, where, report);
+    if (status != GRAZE_OK)
+        return status;
+    *found = options > 0;
+    *view = taken;
+    return GRAZE_OK;
+}
+
+/* The same for a line of a header, which may hold anything. */
+static bool read_header_line(rad_view *view, const char *line) {
+    int options = 0;
+    if (is_view_line(line))
+        (void)read_view_options(view, line, ANYTHING, &options, NULL, NULL);
+    return options > 0;
 }
 
 /* A header's next line, without its end; false at the header's or the file's end. */
@@ -171,7 +212,7 @@ graze_status rad_view_read(rad_view *view, const char *file, const graze_report 
     size_t capacity = 0;
     bool found = false;
     while (next_line(in, &line, &capacity))
-        found = rad_view_read_line(view, line) || found;
+        found = read_header_line(view, line) || found;
     graze_status status = GRAZE_OK;
     if (ferror(in))
         status = report_file_error(report, NULL, "cannot read view file %s", file);
@@ -277,9 +318,9 @@ static const char *prepare(rad_view *v) {
     return NULL;
 }
 
-graze_status rad_view_prepare(rad_view *view, const graze_report *report) {
+graze_status rad_view_prepare(rad_view *view, const place *where, const graze_report *report) {
     const char *trouble = prepare(view);
-    return trouble ? report_error(report, NULL, "%s", trouble) : GRAZE_OK;
+    return trouble ? report_error(report, where, "%s", trouble) : GRAZE_OK;
 }
 
 double rad_view_aspect(const rad_view *v) {

@@ -27,12 +27,14 @@ rad_view rad_view_default(void);
 graze_status rad_view_option(rad_view *, int count, const char *const *words, int *used, const place *where,
                              const graze_report *);
 /* Takes the view options of a line as stands in view files and picture headers: one that begins with VIEW= or the name
- * of a program that takes views. False where it has none. */
-bool rad_view_read_line(rad_view *, const char *line);
-/* -vf: the last view found in a view file or picture header. */
+ * of a program that takes views. *found: whether it is one and has any. An error, which leaves the view as it was, are
+ * view options with wrong words, and behind VIEW= other words and no words at all. */
+graze_status rad_view_take_line(rad_view *, const char *line, bool *found, const place *where, const graze_report *);
+/* -vf: the last view found in a view file or picture header. What is wrong there is passed over, as in Radiance, unless
+ * nothing else is found. */
 graze_status rad_view_read(rad_view *, const char *file, const graze_report *);
 /* Checks the parameters and computes what rays need. Must come before the functions below. */
-graze_status rad_view_prepare(rad_view *, const graze_report *);
+graze_status rad_view_prepare(rad_view *, const place *where, const graze_report *);
 /* Height over width of a picture with square pixels. */
 double rad_view_aspect(const rad_view *);
 /* The ray through (x, y) in [0,1]^2, from the lower left. Gives the largest distance (aft - fore, or 0: none) in

@@ -40,8 +40,10 @@ fails "names with two" 1 "%d" "" "$gpict" -S 1 -o %d%d.hdr room.rad
 fails "names with something else" 1 "%d" "" "$gpict" -S 1 -o %s.hdr room.rad
 fails "distances without a number" 1 "%d" "" "$gpict" -S 1 -o %d.hdr -z z room.rad
 fails "the scene where the views come from" 1 "-" "" "$gpict" -S 1 -
-fails "a view that is none" 1 "zero view direction" "VIEW= -vd 0 0 0\nVIEW= -vd 0 1 0\n" "$gpict" -S 1 "${small[@]}" -o h%d.hdr room.rad
+fails "a view that is none" 1 "standard input:2: zero view direction" "\nVIEW= -vd 0 0 0\nVIEW= -vd 0 1 0\n" "$gpict" -S 1 "${small[@]}" -o h%d.hdr room.rad
 check "... does not keep the others back" test ! -e h1.hdr -a -s h2.hdr
+fails "a view with a word amiss" 1 "standard input:1:7: option '-vd'" "VIEW= -vd 0 y 0\nVIEW= -vd 0 1 0\n" "$gpict" -S 1 "${small[@]}" -o i%d.hdr room.rad
+check "... has its number all the same" test ! -e i1.hdr -a -s i2.hdr
 
 # A sequence goes on where it was: frame by frame, and in the middle of one.
 slow=(-x 40 -y 40 --samples 800 -pm .5 --checkpoint-interval .02)

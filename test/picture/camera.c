@@ -12,7 +12,7 @@ static picture_settings settings_of(char type) {
     s.view.horizontal = type == 'l' ? 3 : 70;
     s.view.vertical = type == 'l' ? 2 : 50;
     s.view.shift = 0.2;
-    assert_int_equal(rad_view_prepare(&s.view, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(&s.view, NULL, NULL), GRAZE_OK);
     return s;
 }
 
@@ -127,7 +127,7 @@ static void corners_of_a_fisheye_have_no_rays(void **state) {
     picture_settings s = settings_of('h');
     s.view.horizontal = s.view.vertical = 180;
     s.view.shift = 0;
-    assert_int_equal(rad_view_prepare(&s.view, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(&s.view, NULL, NULL), GRAZE_OK);
     graze_ray ray;
     assert_false(camera_ray(&s, 0, 0, &camera_center, &ray));
     assert_true(camera_ray(&s, 20, 15, &camera_center, &ray));

@@ -95,7 +95,7 @@ static void the_view_is_the_same_to_the_last_bit(void **state) {
     picture_settings s = room_settings(), again = s;
     s.view.point.x = 1.0 / 3;
     s.view.up = (vec3){0.1, 0.2, 0.7};
-    assert_int_equal(rad_view_prepare(&s.view, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(&s.view, NULL, NULL), GRAZE_OK);
     sitting begun = sitting_begin(room, &trace, &s);
     written_file file = new_file();
     assert_int_equal(checkpoint_write(begun.picture, file.name, &labels, NULL), GRAZE_OK);

@@ -129,7 +129,7 @@ static void light_that_goes_round_is_indirect(void **state) {
     trace.samples = 64;
     picture_settings s = room_settings();
     s.view.direction = (vec3){0, 1, 0};
-    assert_int_equal(rad_view_prepare(&s.view, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(&s.view, NULL, NULL), GRAZE_OK);
     sitting none = sitting_of(box, &trace, &s);
     trace.ambient_bounces = 3;
     sitting whole = sitting_of(box, &trace, &s);

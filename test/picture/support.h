@@ -32,7 +32,7 @@ static inline picture_settings room_settings(void) {
                           .threads = 2};
     s.view.point = (vec3){0, -4, 1};
     s.view.direction = (vec3){0, 1, -0.2};
-    assert_int_equal(rad_view_prepare(&s.view, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(&s.view, NULL, NULL), GRAZE_OK);
     return s;
 }
 

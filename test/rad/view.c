@@ -21,7 +21,7 @@ static rad_view view_of(const char *text) {
 
 static rad_view prepared(const char *text) {
     rad_view v = view_of(text);
-    assert_int_equal(rad_view_prepare(&v, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(&v, NULL, NULL), GRAZE_OK);
     return v;
 }
 
@@ -140,7 +140,7 @@ static void bad_views(void **state) {
         rad_view v = view_of(cases[i][0]);
         messages m;
         graze_report report = messages_report(&m);
-        assert_int_equal(rad_view_prepare(&v, &report), GRAZE_INPUT_ERROR);
+        assert_int_equal(rad_view_prepare(&v, NULL, &report), GRAZE_INPUT_ERROR);
         assert_contains(m.text, cases[i][1]);
     }
     prepared("-vd 1e-200 0 0");
@@ -208,6 +208,39 @@ static void view_files(void **state) {
     assert_true(v.direction.x == 1);
 }
 
+static void view_lines(void **state) {
+    (void)state;
+    static const struct {
+        const char *line;
+        bool found;
+        const char *message; /* null: none */
+    } cases[] = {
+        {"VIEW= -vp 1 2 3", true, NULL},
+        {"VIEW=-vp 1 2 3", true, NULL},
+        {"/usr/bin/rvu -x 5 -vp 1 2 3 -vf other.vf", true, NULL},
+        {"rpict -x 5", false, NULL},
+        {"a view -vp 1 2 3", false, NULL},
+        {"", false, NULL},
+        {"VIEW= -vp 1 2 3 -vh wide", false, "stdin:3:17: option '-vh': 'wide' is not a number"},
+        {"rvu -vp 1 2 3 -vh", false, "stdin:3:15: option '-vh': 1 number missing"},
+        {"VIEW= -vp 1 2 3 -vq", false, "stdin:3:17: '-vq' is no view option"},
+        {"VIEW= -vp 1 2 3 4", false, "stdin:3:17: '4' is no view option"},
+        {"VIEW= ", false, "stdin:3: VIEW= without a view option"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        rad_view v = rad_view_default();
+        messages m;
+        graze_report report = messages_report(&m);
+        bool found = !cases[i].found;
+        graze_status status =
+            rad_view_take_line(&v, cases[i].line, &found, &(place){.file = "stdin", .line = 3}, &report);
+        assert_int_equal(status, cases[i].message ? GRAZE_INPUT_ERROR : GRAZE_OK);
+        assert_contains(m.text, cases[i].message ? cases[i].message : "");
+        assert_int_equal(found, cases[i].found);
+        assert_true(v.point.z == (cases[i].found ? 3 : 0));
+    }
+}
+
 static void view_files_of_anything(void **state) {
     (void)state;
     static const char *const pieces[] = {"VIEW=", " -vp", " -vt", "v", " 1", " -vh 3", "\n",
@@ -260,9 +293,11 @@ static void fitting(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(centre_and_edges), cmocka_unit_test(shift_and_lift), cmocka_unit_test(fisheyes_end),
-        cmocka_unit_test(clipping),         cmocka_unit_test(printing),       cmocka_unit_test(bad_views),
-        cmocka_unit_test(bad_options),      cmocka_unit_test(view_files),     cmocka_unit_test(view_files_of_anything),
+        cmocka_unit_test(centre_and_edges), cmocka_unit_test(shift_and_lift),
+        cmocka_unit_test(fisheyes_end),     cmocka_unit_test(clipping),
+        cmocka_unit_test(printing),         cmocka_unit_test(bad_views),
+        cmocka_unit_test(bad_options),      cmocka_unit_test(view_files),
+        cmocka_unit_test(view_lines),       cmocka_unit_test(view_files_of_anything),
         cmocka_unit_test(fitting),
     };
     return cmocka_run_group_tests(tests, enter_directory, leave_directory);

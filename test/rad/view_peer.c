@@ -45,7 +45,7 @@ static void read_options(const char *view_words, const char *size_words, rad_vie
         else
             *(words[i][1] == 'x' ? width : height) = atoi(words[i + 1]);
     }
-    assert_int_equal(rad_view_prepare(v, NULL), GRAZE_OK);
+    assert_int_equal(rad_view_prepare(v, NULL, NULL), GRAZE_OK);
 }
 
 /* What a shell command writes, as doubles; gives their number. */

@@ -18,10 +18,10 @@ static graze_status check_names(const gpict_options *o, const graze_report *repo
 }
 
 /* One frame; the view becomes the previous one. */
-static graze_status render_view(job *j, int number, const rad_view *view, rad_view *previous) {
+static graze_status render_view(job *j, int number, const rad_view *view, const place *where, rad_view *previous) {
     shot *f = NULL;
     rad_view now = *view;
-    graze_status status = rad_view_prepare(&now, j->report);
+    graze_status status = rad_view_prepare(&now, where, j->report);
     if (status != GRAZE_OK)
         return status;
     status = shot_prepare(&f, j, number, view, previous);
@@ -36,14 +36,19 @@ static void cut_end(char *line) {
     line[strcspn(line, "\r\n")] = 0;
 }
 
+/* A line that is to be a view and is none has its frame's number all the same. */
 static graze_status render_all(job *j, rad_view *view, rad_view *previous, char **line, size_t *size) {
     graze_status worst = GRAZE_OK;
     int number = j->options->first_frame;
+    place where = {.file = "standard input"};
     while (!j->signal && worst < GRAZE_SYSTEM_ERROR && getline(line, size, stdin) > 0) {
+        bool found;
+        where.line++;
         cut_end(*line);
-        if (!rad_view_read_line(view, *line))
-            continue;
-        graze_status status = render_view(j, number++, view, previous);
+        graze_status status = rad_view_take_line(view, *line, &found, &where, j->report);
+        if (found)
+            status = render_view(j, number, view, &where, previous);
+        number += found || status != GRAZE_OK;
         worst = status > worst ? status : worst;
     }
     if (ferror(stdin))
@@ -57,7 +62,7 @@ graze_status sequence_render(job *j) {
     size_t size = 0;
     graze_status status = check_names(j->options, j->report);
     if (status == GRAZE_OK)
-        status = rad_view_prepare(&previous, j->report);
+        status = rad_view_prepare(&previous, NULL, j->report);
     if (status == GRAZE_OK)
         status = job_load(j);
     if (status == GRAZE_OK)

@@ -39,7 +39,7 @@ static bool same_view(const rad_view *a, const rad_view *b) {
 
 static bool is_default_view(const gpict_options *o) {
     rad_view plain = rad_view_default(), given = o->view;
-    return rad_view_prepare(&plain, NULL) == GRAZE_OK && rad_view_prepare(&given, NULL) == GRAZE_OK &&
+    return rad_view_prepare(&plain, NULL, NULL) == GRAZE_OK && rad_view_prepare(&given, NULL, NULL) == GRAZE_OK &&
            same_view(&plain, &given);
 }
 
@@ -89,7 +89,7 @@ static graze_status prepare(shot *f, const job *j) {
     s->without_cache = o->render.ambient_accuracy == 0;
     s->threads = o->render.threads;
     if (status == GRAZE_OK)
-        status = rad_view_prepare(&s->view, j->report);
+        status = rad_view_prepare(&s->view, NULL, j->report);
     if (status == GRAZE_OK)
         rad_view_fit(&s->view, &s->pixel_aspect, &s->width, &s->height);
     options_command_line(f->command, sizeof f->command, j->arguments->argc, j->arguments->argv);
