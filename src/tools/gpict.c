@@ -34,7 +34,7 @@ static graze_status render_one(job *j) {
 static graze_status run(void *user, const tool_arguments *arguments, const graze_report *full_report) {
     program *p = user;
     const graze_report quiet = tool_report(full_report, p->options.render.warnings), *report = &quiet;
-    job j = {.options = &p->options, .table = p->table, .arguments = arguments, .report = report};
+    job j = {.options = &p->options, .arguments = arguments, .report = report};
     graze_status status = render_options_begin(&p->options.render, arguments, report);
     if (status == GRAZE_OK)
         status = render_options_settings(&p->options.render, false, &j.trace, report);

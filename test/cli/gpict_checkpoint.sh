@@ -79,7 +79,10 @@ head -c 1000 kept >short
 fails "a checkpoint cut short" 1 "damaged" "" "$gpict" -r short room.rad
 check "and it is still there" test -s kept
 grep -v '^#' room.rad | sed 's/  */ /g' >same.rad
+cp kept again
 check "the same scene in other words is the same" "${go_on[@]}" --samples 400 same.rad
+fails "one that has an effect at 0 may not be 0" 1 "'-aa 0.1' and cannot go on with '-aa 0'" "" "$gpict" -r again -o y.hdr -ab 2 --samples 400 -aa 0 room.rad
+check "options without effect may differ" "$gpict" -r again -o y.hdr -ab 2 --samples 400 -aa .3 -ad 64 -ds .5 -u- -cs 9 -e log -ap map room.rad
 
 # A picture that cannot be written is not lost.
 cp whole.hdr d.hdr

@@ -38,6 +38,20 @@ render_options render_options_default(double error) {
     return o;
 }
 
+render_options render_options_in_effect(const render_options *given) {
+    const render_options plain = render_options_default(given->error);
+    render_options o = *given;
+    o.ignored = plain.ignored;
+    o.components = plain.components;
+    o.all_components = plain.all_components;
+    o.error_file = plain.error_file;
+    if (o.ambient_divisions > 0)
+        o.ambient_divisions = plain.ambient_divisions;
+    if (o.ambient_accuracy > 0)
+        o.ambient_accuracy = plain.ambient_accuracy;
+    return o;
+}
+
 /* Takes `MODEL` or `MATERIAL=MODEL`; a material's name may hold a =, a model's does not. */
 static graze_status take_model(void *target, const char *suffix, int count, const char *const *words, int *used,
                                const graze_report *report) {

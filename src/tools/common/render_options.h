@@ -47,6 +47,9 @@ typedef struct render_options {
 
 render_options render_options_default(double error);
 
+/* The same with its plainest value wherever another would change no answer: what has no effect is the default's. */
+render_options render_options_in_effect(const render_options *);
+
 /* How many entries render_options_table fills. */
 #define RENDER_OPTION_COUNT 55
 

@@ -168,7 +168,11 @@ static bool is_beside(const char *name) {
     return strncmp(name, "-v", 2) == 0;
 }
 
-char *gpict_options_question(const option table[GPICT_TABLE_SIZE]) {
+char *gpict_options_question(const gpict_options *given) {
+    gpict_options o = *given;
+    option table[GPICT_TABLE_SIZE];
+    o.render = render_options_in_effect(&given->render);
+    gpict_options_table(&o, table);
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);

@@ -37,8 +37,8 @@ enum { GPICT_OPTION_COUNT = 36, GPICT_TABLE_SIZE = GPICT_OPTION_COUNT + RENDER_O
 /* Fills in the table: entries that store into the options. */
 void gpict_options_table(gpict_options *, option table[GPICT_TABLE_SIZE]);
 
-/* What the picture's bytes depend on besides its scene, view and size: the options with their values, a line each. To
+/* What the picture's bytes depend on besides its scene, view and size: the options that have an effect, a line each. To
  * be freed; null when out of memory. */
-char *gpict_options_question(const option table[GPICT_TABLE_SIZE]);
+char *gpict_options_question(const gpict_options *);
 
 #endif

@@ -150,7 +150,7 @@ graze_status job_load(job *j) {
 
 /* All that the picture's bytes depend on, besides its view and size. */
 static char *question_of(const shot *f, const job *j) {
-    char *options = gpict_options_question(j->table), *question = NULL;
+    char *options = gpict_options_question(j->options), *question = NULL;
     size_t size = 0;
     FILE *out = options ? open_memstream(&question, &size) : NULL;
     if (out) {

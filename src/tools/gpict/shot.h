@@ -8,7 +8,6 @@
 /* What all pictures have in common. */
 typedef struct job {
     const gpict_options *options;
-    const option *table; /* of them: GPICT_TABLE_SIZE */
     const tool_arguments *arguments;
     graze_trace_settings trace;
     graze_scene *scene; /* null until it is needed */
