@@ -17,6 +17,8 @@ typedef struct program {
 static graze_status check(const gpict_options *o, const tool_arguments *arguments, const graze_report *report) {
     if (o->spacing > COARSEST)
         report_warning(report, NULL, "-ps %d: the spacing is %d", o->spacing, COARSEST);
+    if (o->spacing < 1)
+        report_warning(report, NULL, "-ps %d: the spacing is 1", o->spacing);
     if (output_color_prepare(&o->render.color).numbers != 3)
         return report_error(report, NULL, "a picture has three colors: -pRGB, -pXYZ or -pc");
     return tool_check_scenes(arguments, o->first_frame > 0, report);

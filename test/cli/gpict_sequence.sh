@@ -35,6 +35,8 @@ rm f003.hdr
 "$gpict" -S 3 "${small[@]}" -o f%03d.hdr room.rad <views 2>err
 check "frames that are there are passed over" test "$(grep -c 'there already' err)" -eq 2
 check "... and are left; the others come" sh -c "cmp f004.hdr before && test -s f003.hdr"
+"$gpict" -S 0 "${small[@]}" -o zero.hdr room.rad <views
+check "-S 0 is no sequence" sh -c "grep -aq '^VIEW= -vtv -vp 0 0 0' zero.hdr && ! grep -aq ^FRAME= zero.hdr"
 fails "names without a number" 1 "%d" "" "$gpict" -S 1 -o f.hdr room.rad
 fails "names with two" 1 "%d" "" "$gpict" -S 1 -o %d%d.hdr room.rad
 fails "names with something else" 1 "%d" "" "$gpict" -S 1 -o %s.hdr room.rad
@@ -95,6 +97,7 @@ done
 # The finished picture knows nothing of the order in which its pixels came.
 for ps in 1 4 16; do "$gpict" -vh 40 -vv 40 -ps $ps -pt .2 "${small[@]}" room.rad | tail -c 400 >ps$ps; done
 check "-ps and -pt change no pixel" sh -c "cmp ps1 ps4 && cmp ps1 ps16"
+check "-ps below 1 is 1, with a warning" sh -c "$gpict -ps 0 ${small[*]} -o ps.hdr room.rad 2>&1 | grep -q 'the spacing is 1$'"
 check "-ps above 16 is 16, with a warning" sh -c "$gpict -ps 20 ${small[*]} -o ps.hdr room.rad 2>&1 | grep -q 'the spacing is 16'"
 
 "$gpict" -defaults >defaults

@@ -94,8 +94,8 @@ static void print_models(void *target, FILE *out) {
 void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) {
     const option options[RENDER_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "Accuracy", 0, 0, NULL, NULL},
-        {"--error", OPTION_REAL, &o->error, "E", "standard error to reach, as a part of the value", 1e-6, 1e6, NULL,
-         NULL},
+        {"--error", OPTION_REAL, &o->error, "E", "standard error to reach, as a part of the value, 1e-6 .. 1e6", 1e-6,
+         1e6, NULL, NULL},
         {"--floor", OPTION_REAL, &o->floor, "F", "smaller values need only E x F", 0, INFINITY, NULL, NULL},
         {"--samples", OPTION_INTEGER, &o->samples, "N", "take exactly N paths instead; 0: by --error", 0, 1 << 30, NULL,
          NULL},
