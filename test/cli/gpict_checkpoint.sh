@@ -96,6 +96,17 @@ mkdir d
 check "... for another attempt" sh -c "$gpict -r c -o d/p.hdr --samples 400 -ab 2 room.rad && test -s d/p.hdr"
 rm -rf d
 
+# A checkpoint that cannot be written is told once, and when it works again.
+mkdir e
+"$gpict" "${slow[@]}" -t 1 --checkpoint e/c room.rad >part.hdr 2>err & begun e/c
+mv e f
+while kill -0 $! 2>/dev/null && ! grep -q "e/c" err; do :; done
+mkdir e
+begun e/c
+ended TERM
+check "a checkpoint that fails is told once" test "$(grep -c 'cannot be created' err)" -eq 1
+check "... and when it works again" grep -q "e/c: checkpoints are written again" err
+
 # Previews and lines of progress.
 "$gpict" "${slow[@]}" -o s.hdr room.rad 2>err & begun s.hdr.checkpoint
 while kill -0 $! && [ ! -e s.preview.hdr ]; do kill -USR1 $!; done 2>/dev/null
@@ -123,5 +134,10 @@ cp room.rad mine.rad
 fails "--checkpoint where something else is" 1 "is no checkpoint" "" "$gpict" --checkpoint mine.rad -o none.hdr mine.rad
 check "... which stays" cmp room.rad mine.rad
 fails "--checkpoint where the picture is to be" 1 "written twice" "" "$gpict" --checkpoint none.hdr -o none.hdr room.rad
+fails "--preview where the picture is to be" 1 "written twice" "" "$gpict" --preview none.hdr -o none.hdr room.rad
+"$gpict" "${slow[@]}" -o s.hdr -o s.preview.hdr room.rad 2>err & begun s.hdr.checkpoint
+while kill -0 $! && ! grep -q "no file for a preview" err; do kill -USR1 $!; done 2>/dev/null
+wait $!
+check "a preview that has no name of its own is not written over a picture" sh -c "grep -q 'no file for a preview' err && tail -c 700 s.hdr >a && tail -c 700 s.preview.hdr | cmp - a"
 fails "--checkpoint where nothing can be written" 1 "nowhere/c" "" "$gpict" --checkpoint nowhere/c -o none.hdr room.rad
 plan

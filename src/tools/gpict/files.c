@@ -37,6 +37,18 @@ static bool find_recover(picture_files *f, arena *memory, const gpict_options *o
     return true;
 }
 
+static bool is_same(const char *a, const char *b) {
+    return a && b && strcmp(a, b) == 0;
+}
+
+/* Whether something else is to be written there. */
+static bool is_taken(const picture_files *f, const char *file) {
+    for (int i = 0; i < f->count; i++)
+        if (is_same(file, f->pictures[i]))
+            return true;
+    return is_same(file, f->contours) || is_same(file, f->depth) || is_same(file, f->checkpoint);
+}
+
 static bool find_beside(picture_files *f, arena *memory, const gpict_options *o, int number) {
     const char *first = f->count > 0 && !image_output_is_special(f->pictures[0]) ? f->pictures[0] : NULL;
     f->checkpoint = *o->checkpoint ? name_of_frame(memory, o->checkpoint, number)
@@ -46,7 +58,11 @@ static bool find_beside(picture_files *f, arena *memory, const gpict_options *o,
     f->preview = *o->preview ? name_of_frame(memory, o->preview, number)
                  : first     ? name_of_preview(memory, first)
                              : NULL;
-    return (f->checkpoint || !(*o->checkpoint || first)) && (f->preview || !(*o->preview || first));
+    bool good = (f->checkpoint || !(*o->checkpoint || first)) && (f->preview || !(*o->preview || first));
+    /* A preview that nobody may ever ask for makes no mistake of a name. */
+    if (!f->preview_wanted && is_taken(f, f->preview))
+        f->preview = NULL;
+    return good;
 }
 
 graze_status files_find(picture_files *f, arena *memory, const gpict_options *o, int number,
@@ -63,10 +79,6 @@ graze_status files_find(picture_files *f, arena *memory, const gpict_options *o,
         good = (f->depth = name_of_frame(memory, o->depth, number)) && good;
     good = good && find_recover(f, memory, o, number) && find_beside(f, memory, o, number);
     return good ? GRAZE_OK : report_out_of_memory(report);
-}
-
-static bool is_same(const char *a, const char *b) {
-    return a && b && strcmp(a, b) == 0;
 }
 
 /* A checkpoint replaces nothing but a checkpoint. */

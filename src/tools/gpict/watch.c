@@ -36,6 +36,7 @@ struct watch {
     progress *bar;
     int64_t started;
     size_t finished_before, in_checkpoint; /* pixels */
+    bool checkpoint_failed;                /* the last attempt; that has been said */
     timer redraw, checkpoint, preview, report;
 };
 
@@ -106,13 +107,20 @@ static graze_report only_warnings(const graze_report *report) {
     return (graze_report){warn_instead, (void *)(uintptr_t)report};
 }
 
+/* Of attempts that fail one after another only the first is told, and the one that works again. */
 static void write_checkpoint(watch *w) {
+    const char *file = w->settings.checkpoint;
     size_t finished = picture_look(w->settings.picture).finished;
     if (finished == w->in_checkpoint)
         return;
-    const graze_report report = only_warnings(w->settings.report);
-    if (checkpoint_write(w->settings.picture, w->settings.checkpoint, &w->settings.labels, &report) == GRAZE_OK)
+    const graze_report warnings = only_warnings(w->settings.report), *report = w->checkpoint_failed ? NULL : &warnings;
+    bool failed = checkpoint_write(w->settings.picture, file, &w->settings.labels, report) != GRAZE_OK;
+    if (!failed) {
         w->in_checkpoint = finished;
+        if (w->checkpoint_failed)
+            report_warning(&warnings, &(place){.file = file}, "checkpoints are written again");
+    }
+    w->checkpoint_failed = failed;
 }
 
 static void write_preview(const watch *w) {
