@@ -14,7 +14,7 @@ struct path_observer;
 typedef struct path_context {
     const graze_scene *scene;
     const graze_trace_settings *settings;
-    path_memory *memory;                  /* null only beside an observer or a record */
+    path_memory *memory;                  /* of paths; null only beside an observer or a record */
     const struct path_observer *observer; /* is told of every ray (trace/observer.h); null: nobody is */
     const struct irradiance_cache *cache; /* null: none */
     struct irradiance_record *record;     /* not null: all that is asked is where the first diffuse reflection leads */
