@@ -1,15 +1,11 @@
 #!/bin/bash
 # gpict as its users run it: outputs, views, threads, bad input, bad output. TAP.
 source "$(dirname "$0")/../support/tap.sh"
+source "$(dirname "$0")/../support/rooms.sh"
 cd "$work" || exit 2
 gpict=$BIN/gpict
 
-cat >room.rad <<'END'
-void plastic red 0 0 5 .7 .1 .1 .05 .1
-red sphere ball 0 0 4 0 5 0 1
-void light white 0 0 3 9 9 9
-white sphere lamp 0 0 4 2 3 2 .3
-END
+ball_and_lamp >room.rad
 view="-vp 0 0 0 -vd 0 1 0 -vh 40 -vv 40"
 
 # What is written.

@@ -1,16 +1,10 @@
 #!/bin/bash
 # gpict's OpenEXR pictures as OpenImageIO's oiiotool reads them: layers, what they add up to, and the header. TAP.
 source "$(dirname "$0")/../support/tap.sh"
+source "$(dirname "$0")/../support/rooms.sh"
 cd "$work" || exit 2
 
-cat >room.rad <<'END'
-void plastic red 0 0 5 .7 .1 .1 .05 .1
-red sphere ball 0 0 4 0 5 0 1
-void plastic gray 0 0 5 .5 .5 .5 0 0
-gray sphere walls 0 0 4 0 5 0 9
-void light white 0 0 3 9 9 9
-white sphere lamp 0 0 4 2 3 2 .3
-END
+closed_room >room.rad
 "$BIN/gpict" -vh 90 -vv 90 -x 40 -y 40 -ab 2 --samples 32 -o a.exr room.rad
 oiiotool --info -v a.exr >info 2>&1
 says() { check "the header says $1" grep -qF -- "$1" info; }
