@@ -246,7 +246,7 @@ static void view_files_of_anything(void **state) {
     static const char *const pieces[] = {"VIEW=", " -vp", " -vt", "v", " 1", " -vh 3", "\n",
                                          "rpict", "/",    "\r",   " ", "\t", "1e999"};
     dice d = {3};
-    int found = 0;
+    int found = 0, good = 0, bad = 0;
     for (int round = 0; round < 2000; ++round) {
         char text[300] = "VIEW=";
         size_t length = 5;
@@ -260,9 +260,14 @@ static void view_files_of_anything(void **state) {
         write_bytes("any.vf", text, length);
         rad_view v = rad_view_default();
         found += rad_view_read(&v, "any.vf", NULL) == GRAZE_OK;
+        text[length] = 0;
+        bool taken;
+        graze_status status = rad_view_take_line(&v, text, &taken, NULL, NULL);
+        good += taken;
+        bad += status == GRAZE_INPUT_ERROR;
         assert_true(isfinite(v.point.x) && isfinite(v.horizontal));
     }
-    assert_true(found > 100);
+    assert_true(found > 100 && good > 10 && bad > 100);
 }
 
 static void fitting(void **state) {
