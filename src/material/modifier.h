@@ -21,10 +21,10 @@ typedef struct material_modifier {
     material_owner owner;
     /* Where there are data: the functions that say where in it to look; what is found is what `values` see. */
     material_function places, values;
-    int data_count;                    /* 0, 1, or 3 */
-    const rad_data *data[3];           /* of a picture, one grid for three planes */
-    const material_picture *picture;   /* or null */
-    int fore, back;                    /* of mixtures: primitives, or RAD_VOID */
+    int data_count;                                                  /* 0, 1, or 3 */
+    const rad_data *data[3];                                         /* of a picture, one grid for three planes */
+    const material_picture *picture;                                 /* or null */
+    int fore, back;                                                  /* of mixtures: primitives, or RAD_VOID */
     const struct material_modifier *fore_modifiers, *back_modifiers; /* of a mixture of patterns and textures */
 } material_modifier;
 

@@ -72,7 +72,8 @@ static graze_status read_places(scanner *s, rad_data_axis *axis) {
             return status;
         bool rises = i > 0 && places[i] > places[i - 1];
         if (i > 0 && (places[i] == places[i - 1] || rises != (places[1] > places[0])))
-            return report_error(s->report, &s->where, "the places of a dimension must rise, or fall, from each to the next");
+            return report_error(s->report, &s->where,
+                                "the places of a dimension must rise, or fall, from each to the next");
     }
     axis->places = places;
     axis->begin = places[0];
@@ -177,8 +178,7 @@ static void find_shares(double steps, double step, double share[2]) {
     }
 }
 
-void rad_data_values(const rad_data *grid, const float *const *planes, int count, const double *point,
-                     double *values) {
+void rad_data_values(const rad_data *grid, const float *const *planes, int count, const double *point, double *values) {
     double shares[RAD_DATA_DIMENSIONS][2];
     size_t offsets[RAD_DATA_DIMENSIONS], first = 0, stride = 1;
     for (int d = grid->dimensions; d-- > 0;) {

@@ -72,8 +72,7 @@ static light_sample draw_shape(const scene_light *light, int index, vec3 point, 
     sample.density = drawn.density;
     vec3 normal = shape_normal(light->shape, hit);
     sample.radiance = light_radiance_at(light, drawn.direction, normal, drawn.distance);
-    sample.radiance =
-        light_patterned(light, sample.radiance, hit, drawn.direction, normal, drawn.distance, travelled);
+    sample.radiance = light_patterned(light, sample.radiance, hit, drawn.direction, normal, drawn.distance, travelled);
     return sample;
 }
 

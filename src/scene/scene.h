@@ -29,9 +29,9 @@ typedef enum light_role {
 typedef struct scene_light {
     rgb radiance;
     const material_modifier *modifiers; /* patterns, or null */
-    const shape *shape; /* null for a source */
-    int surface;        /* index of the shape; -1 for a source */
-    int primitive;      /* of the surface, in the description */
+    const shape *shape;                 /* null for a source */
+    int surface;                        /* index of the shape; -1 for a source */
+    int primitive;                      /* of the surface, in the description */
     bool glow;
     double glow_radius; /* of a glow: where it is LIGHT_DIRECT; 0: nowhere; negative: LIGHT_NONE everywhere */
     bool spot;

@@ -18,8 +18,8 @@ static graze_surface probe(vec3 normal, vec3 view) {
 
 void vertex_find_ambient(const path *p, vertex *v, const graze_material *m) {
     v->ambient = v->shading.diffuse;
-    v->gloss_is_ambient = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY &&
-                          m->specularity <= p->context->settings->specular_threshold;
+    v->gloss_is_ambient =
+        v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && m->specularity <= p->context->settings->specular_threshold;
     if (v->gloss_is_ambient)
         v->ambient = rgb_add(v->ambient, v->shading.specular);
 }
