@@ -28,10 +28,10 @@ USES_cal      := base
 USES_image    := base
 USES_fit      := brdf base
 USES_geometry := rad base
-USES_material := brdf rad base
-USES_scene    := material geometry brdf rad base
-USES_trace    := scene material geometry brdf rad base
-USES_picture  := trace scene material geometry brdf rad image base
+USES_material := brdf rad cal image base
+USES_scene    := material geometry brdf rad cal image base
+USES_trace    := scene material geometry brdf rad cal image base
+USES_picture  := trace scene material geometry brdf rad cal image base
 
 LIBS_base     := -pthread
 LIBS_image    := -lOpenEXRCore -ldl
@@ -164,8 +164,10 @@ $(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
 # than that, and needs nothing but libm.
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
 PARTS   := brdf material scene
+# Those of material's files that need scenes.
+FROM_SCENES      := from_primitive function library modifier modify
 OBJECTS_brdf     := $(filter $(BUILD)/obj/brdf/%,$(OBJECTS))
-OBJECTS_material := $(filter-out %/from_primitive.o,$(filter $(BUILD)/obj/material/%,$(OBJECTS))) $(BUILD)/obj/base/vector.o
+OBJECTS_material := $(filter-out $(FROM_SCENES:%=$(BUILD)/obj/material/%.o),$(filter $(BUILD)/obj/material/%,$(OBJECTS))) $(BUILD)/obj/base/vector.o
 OBJECTS_scene    := $(filter-out $(OBJECTS_brdf) $(filter-out %/vector.o,$(OBJECTS_material)),$(OBJECTS))
 define part_rule
 $(BUILD)/parts/$(1).o: $(OBJECTS_$(1)) $(BUILD)/sources

@@ -31,16 +31,13 @@ typedef union cell {
 
 enum { FLAG_DONE = 1, FLAG_AT_IT = 2 };
 
-static size_t register_count(const cal_code *code) {
-    return code->units[0].frame_size + (code->unit_count > 1 ? CALL_REGISTERS : 0);
-}
-
-static size_t return_count(const cal_code *code) {
-    return code->return_count + (code->unit_count > 1 ? CALL_RETURNS : 0);
+static size_t size_of(const cal_code *code, size_t call_registers, size_t call_returns) {
+    return sizeof(memory_head) + (code->units[0].frame_size + call_registers) * sizeof(cell) +
+           (code->return_count + call_returns) * sizeof(go_back);
 }
 
 size_t cal_memory_size(const cal_code *code) {
-    return sizeof(memory_head) + register_count(code) * sizeof(cell) + return_count(code) * sizeof(go_back);
+    return code->unit_count > 1 ? size_of(code, CALL_REGISTERS, CALL_RETURNS) : size_of(code, 0, 0);
 }
 
 const char *cal_failure(const cal_code *code, const void *memory) {
@@ -75,7 +72,7 @@ typedef struct machine {
     memory_head *head;
     cell *registers;
     go_back *returns;
-    size_t return_count;
+    size_t register_count, return_count;
     uint32_t top, depth, calls;
 } machine;
 
@@ -98,7 +95,7 @@ static const char *const circular = "a variable is defined by itself";
 /* A frame for a call, with the arguments that follow the instruction; null where there is no room. */
 static cell *new_frame(machine *m, const cal_instruction *call, const cell *r, uint32_t frame) {
     const cal_unit *unit = &m->code->units[call->a];
-    if (m->top + unit->frame_size > register_count(m->code))
+    if (m->top + unit->frame_size > m->register_count)
         return NULL;
     cell *fresh = m->registers + m->top;
     for (uint32_t k = 0; k < call->b; k++) {
@@ -336,17 +333,44 @@ static cal_outcome run(machine *m, const double *channels, double *outputs) {
     }
 }
 
-cal_outcome cal_evaluate(const cal_code *code, const double *channels, double *outputs, void *memory) {
+/* How many registers and places to go back to fit into the memory; false where the main code's own do not. */
+static bool divide(machine *m, size_t size) {
+    const cal_code *code = m->code;
+    size_t needed = size_of(code, 0, 0);
+    m->register_count = code->units[0].frame_size;
+    m->return_count = code->return_count;
+    if (size < needed)
+        return false;
+    if (code->unit_count == 1)
+        return true;
+    /* As many of one kind for one of the other as in the largest memory. */
+    enum { FOR_ONE = CALL_REGISTERS / CALL_RETURNS };
+    size_t returns = (size - needed) / (FOR_ONE * sizeof(cell) + sizeof(go_back));
+    if (returns > CALL_RETURNS)
+        returns = CALL_RETURNS;
+    m->register_count += FOR_ONE * returns;
+    m->return_count += returns;
+    return true;
+}
+
+cal_outcome cal_evaluate_within(const cal_code *code, const double *channels, double *outputs, void *memory,
+                                size_t size, bool *cramped) {
     memory_head *head = memory;
     cell *registers = (cell *)(head + 1);
-    machine m = {.code = code,
-                 .head = head,
-                 .registers = registers,
-                 .returns = (go_back *)(registers + register_count(code)),
-                 .return_count = return_count(code),
-                 .top = code->units[0].frame_size};
+    machine m = {.code = code, .head = head, .registers = registers, .top = code->units[0].frame_size};
+    *cramped = !divide(&m, size);
+    if (*cramped)
+        return CAL_FAILED;
+    m.returns = (go_back *)(registers + m.register_count);
     head->failure = NULL;
     head->noise.known = 0;
     clear_flags(registers, &code->units[0]);
-    return run(&m, channels, outputs);
+    cal_outcome outcome = run(&m, channels, outputs);
+    *cramped = outcome == CAL_FAILED && head->failure == too_deep && size < cal_memory_size(code);
+    return outcome;
+}
+
+cal_outcome cal_evaluate(const cal_code *code, const double *channels, double *outputs, void *memory) {
+    bool cramped;
+    return cal_evaluate_within(code, channels, outputs, memory, cal_memory_size(code), &cramped);
 }

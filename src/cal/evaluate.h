@@ -2,6 +2,7 @@
 #ifndef CAL_EVALUATE_H
 #define CAL_EVALUATE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -23,6 +24,11 @@ size_t cal_memory_size(const cal_code *);
  * where the memory's frames are used up. Safe on any number of threads at once with memory of their own. */
 enum { CAL_CALLS_MOST = 1000000 };
 cal_outcome cal_evaluate(const cal_code *, const double *channels, double *outputs, void *memory);
+
+/* The same in memory of `size` bytes. Where functions call themselves that may be much less than cal_memory_size says,
+ * and mostly is enough; *cramped tells that it was not: then there is no answer, nor a failure told. */
+cal_outcome cal_evaluate_within(const cal_code *, const double *channels, double *outputs, void *memory, size_t size,
+                                bool *cramped);
 
 /* Why the last evaluation in that memory failed, with the place in the function file. */
 const char *cal_failure(const cal_code *, const void *memory);

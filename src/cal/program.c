@@ -163,3 +163,22 @@ bool cal_program_defines(cal_program *program, const char *file, const char *nam
     const cal_symbol *symbol = context ? cal_symbols_find(&program->symbols, context, name) : NULL;
     return symbol ? symbol->definition || symbol->library : context && cal_library_find(name);
 }
+
+int cal_program_parameter_count(cal_program *program, const char *file, const char *name) {
+    const char *context = cal_context_of_file(program->memory, file);
+    const cal_symbol *symbol = context ? cal_symbols_find(&program->symbols, context, name) : NULL;
+    if (symbol && symbol->definition)
+        return symbol->definition->parameter_count;
+    const cal_function *library = symbol ? symbol->library : context ? cal_library_find(name) : NULL;
+    if (!library)
+        return 0;
+    switch (library->kind) {
+    case CAL_NOISE:
+    case CAL_IF:
+        return 3;
+    case CAL_REAL_2:
+        return 2;
+    default:
+        return 1;
+    }
+}

@@ -86,4 +86,8 @@ graze_status cal_program_use_file(cal_program *, const char *name, const cal_fin
 /* Whether a name used in the context of `file` is defined, as a variable or as a function. */
 bool cal_program_defines(cal_program *, const char *file, const char *name);
 
+/* How many parameters the function of that name has, in the context of `file`; 0 for a variable or an unknown name;
+ * of those of the library that take any number, the least. */
+int cal_program_parameter_count(cal_program *, const char *file, const char *name);
+
 #endif

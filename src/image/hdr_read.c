@@ -215,6 +215,8 @@ static graze_status finish(image **result, const image_hdr_header *header, const
         return report_out_of_memory(source->report);
     }
     picture->pixel_aspect = header->pixel_aspect;
+    for (int c = 0; c < 3; c++)
+        picture->pixel_scale[c] = header->exposure * header->correction[c];
     decode_pixels(picture, header, &matrix, store->rgbe);
     *result = picture;
     return GRAZE_OK;

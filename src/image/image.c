@@ -27,6 +27,7 @@ image *image_create(int width, int height, int channel_count, const char *const 
     picture->height = height;
     picture->channel_count = channel_count;
     picture->pixel_aspect = 1;
+    picture->pixel_scale[0] = picture->pixel_scale[1] = picture->pixel_scale[2] = 1;
     picture->channel_names = calloc((size_t)channel_count, sizeof *picture->channel_names);
     picture->channels = calloc((size_t)channel_count, sizeof *picture->channels);
     if (!picture->channel_names || !picture->channels || !allocate_channels(picture, channel_names)) {

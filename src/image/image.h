@@ -17,6 +17,8 @@ typedef struct image {
     char **channel_names;
     float **channels;        /* channel_count planes of width * height */
     double pixel_aspect;     /* height over width of a pixel, 1 for square */
+    double pixel_scale[3];   /* what R, G, B were in the file read for each 1 here: Radiance HDR's EXPOSURE and
+                                COLORCORR; else 1 */
     const char *view;        /* as behind `VIEW=`, or null */
     const char *command;     /* the command line that made it, or null */
     const char *software;    /* "Graze 0.1.0", or null */

@@ -36,6 +36,19 @@ vec3 rad_transform_point(const rad_transform *t, vec3 p) {
     return vec3_add(rad_transform_vector(t, p), vec3_make(t->m[3][0], t->m[3][1], t->m[3][2]));
 }
 
+/* The linear part is a rotation or reflection times the scale. */
+rad_transform rad_transform_inverse(const rad_transform *t) {
+    rad_transform inverse = {.scale = 1 / t->scale, .mirrored = t->mirrored};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            inverse.m[row][column] = t->m[column][row] / t->scale / t->scale;
+    vec3 moved = rad_transform_vector(&inverse, vec3_make(t->m[3][0], t->m[3][1], t->m[3][2]));
+    inverse.m[3][0] = -moved.x;
+    inverse.m[3][1] = -moved.y;
+    inverse.m[3][2] = -moved.z;
+    return inverse;
+}
+
 static bool is_in_range(const rad_transform *t) {
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column)

@@ -17,6 +17,7 @@ typedef struct rad_transform {
 
 rad_transform rad_transform_identity(void);
 rad_transform rad_transform_then(const rad_transform *first, const rad_transform *second);
+rad_transform rad_transform_inverse(const rad_transform *);
 vec3 rad_transform_point(const rad_transform *, vec3);
 vec3 rad_transform_vector(const rad_transform *, vec3); /* no translation; scaled */
 

@@ -28,6 +28,23 @@ rgb light_radiance_at(const scene_light *light, vec3 direction, vec3 normal, dou
     return rgb_scale(part * part, radiance);
 }
 
+static rgb within_range(rgb a) {
+    return (rgb){fmin(fmax(a.r, 0), SCENE_LARGEST_RADIANCE), fmin(fmax(a.g, 0), SCENE_LARGEST_RADIANCE),
+                 fmin(fmax(a.b, 0), SCENE_LARGEST_RADIANCE)};
+}
+
+rgb light_patterned(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal, double distance,
+                    double travelled) {
+    if (!light->modifiers || rgb_is_black(radiance))
+        return radiance;
+    const material_ray ray = {.point = point,
+                              .direction = direction,
+                              .normal = light->shape ? normal : vec3_negate(direction),
+                              .distance = travelled + distance,
+                              .last_distance = distance};
+    return within_range(rgb_multiply(radiance, material_modify(light->modifiers, &ray).color));
+}
+
 /* 1 - cos of the angle between unit vectors is |a - b|^2 / 2: exact for the sun's small angles. */
 static bool source_contains(const scene_light *light, vec3 direction) {
     vec3 difference = vec3_subtract(direction, light->center);
@@ -42,7 +59,8 @@ int light_source_towards(const graze_scene *scene, vec3 direction) {
     return -1;
 }
 
-static light_sample draw_shape(const scene_light *light, int index, vec3 point, const double random[2]) {
+static light_sample draw_shape(const scene_light *light, int index, vec3 point, double travelled,
+                               const double random[2]) {
     light_sample sample = {.light = -1};
     solid_angle_sample drawn = solid_angle_draw(light->shape, point, random[0], random[1]);
     if (drawn.density == 0)
@@ -52,19 +70,24 @@ static light_sample draw_shape(const scene_light *light, int index, vec3 point, 
     sample.direction = drawn.direction;
     sample.distance = drawn.distance;
     sample.density = drawn.density;
-    sample.radiance = light_radiance_at(light, drawn.direction, shape_normal(light->shape, hit), drawn.distance);
+    vec3 normal = shape_normal(light->shape, hit);
+    sample.radiance = light_radiance_at(light, drawn.direction, normal, drawn.distance);
+    sample.radiance = light_patterned(light, sample.radiance, hit, drawn.direction, normal, drawn.distance, travelled);
     return sample;
 }
 
-light_sample light_draw(const graze_scene *scene, vec3 point, int index, const double random[2]) {
+light_sample light_draw(const graze_scene *scene, vec3 point, double travelled, int index, const double random[2]) {
     const scene_light *light = &scene->lights[index];
     if (light->shape)
-        return draw_shape(light, index, point, random);
+        return draw_shape(light, index, point, travelled, random);
     light_sample sample = {.light = -1, .distance = GEOMETRY_FAR, .radiance = light->radiance};
     sample.direction = solid_angle_draw_cone(light->center, light->half_angle, random[0], random[1]);
     sample.density = 1 / solid_angle_of_cone(light->half_angle);
-    if (light_source_towards(scene, sample.direction) == index)
-        sample.light = index;
+    if (light_source_towards(scene, sample.direction) != index)
+        return sample;
+    sample.light = index;
+    sample.radiance =
+        light_patterned(light, sample.radiance, point, sample.direction, sample.direction, GEOMETRY_FAR, travelled);
     return sample;
 }
 

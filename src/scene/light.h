@@ -15,6 +15,11 @@ rgb light_radiance(const scene_light *, vec3 direction, vec3 normal);
  * weaker than the light is bright to the eye, by (distance / (distance + focus))^2. */
 rgb light_radiance_at(const scene_light *, vec3 direction, vec3 normal, double distance);
 
+/* The radiance with the light's patterns, where it has any, for a ray that ends at `point` on it (of a source, the
+ * ray's origin) after `distance`, and has come all the way from the eye by `travelled`. Not negative. */
+rgb light_patterned(const scene_light *, rgb radiance, vec3 point, vec3 direction, vec3 normal, double distance,
+                    double travelled);
+
 /* The source that a ray in this direction meets when nothing else is in its way, or -1: the first `light` in the
  * scene's order, else the first `glow`. */
 int light_source_towards(const graze_scene *, vec3 direction);
@@ -27,8 +32,9 @@ typedef struct light_sample {
     rgb radiance;
 } light_sample;
 
-/* Draws a direction from the point towards a light, by two numbers in [0,1). */
-light_sample light_draw(const graze_scene *, vec3 point, int index, const double random[2]);
+/* Draws a direction from the point, which is `travelled` away from the eye, towards a light, by two numbers in
+ * [0,1). */
+light_sample light_draw(const graze_scene *, vec3 point, double travelled, int index, const double random[2]);
 
 /* The density of light_draw for a direction that meets light `index` at `hit_point` (ignored for sources). */
 double light_density(const graze_scene *, vec3 point, int index, vec3 direction, vec3 hit_point, vec3 hit_normal);

@@ -55,6 +55,16 @@ static bool can_reach(const graze_scene *scene, int index, const light_receiver 
     return height > 0 || e->all_around[i] > 0 || (height > -1e-6 * radius && vec3_length(to_middle) < radius);
 }
 
+bool light_choice_is_above(const graze_scene *scene, int index, vec3 at, vec3 normal) {
+    const light_entries *e = &scene->light_tree.entries;
+    size_t i = scene->light_tree.entry_of[index];
+    if (scene->light_tree.group_of[index] < 0)
+        return false;
+    vec3 middle = {e->x[i], e->y[i], e->z[i]}, point = light_tree_point(&scene->light_tree, at);
+    vec3 to_middle = scene->lights[index].shape ? vec3_subtract(middle, point) : middle;
+    return vec3_dot(to_middle, normal) > 1.000001 * (double)e->radius[i];
+}
+
 /* Of a few lights, only whether they can reach the point is asked. */
 static void prepare_every(light_choice *choice, const graze_scene *scene) {
     const light_receiver *r = &choice->receiver;

@@ -31,6 +31,9 @@ void light_choice_prepare(light_choice *, const graze_scene *, const light_recei
 /* For a point that nothing shines on. */
 void light_choice_none(light_choice *);
 
+/* Whether all of a light is above the plane through a point. False for lights that are never sampled. */
+bool light_choice_is_above(const graze_scene *, int light, vec3 point, vec3 normal);
+
 /* Whether any light could reach the point. */
 bool light_choice_is_possible(const light_choice *);
 

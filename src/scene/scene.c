@@ -28,8 +28,17 @@ const char *scene_modifier_name(const graze_scene *scene, int primitive) {
     return modifier == RAD_VOID ? "void" : scene->primitives[modifier].id;
 }
 
-const char *scene_material_name(const graze_scene *scene, int primitive) {
+/* The material of a surface: behind patterns and textures. A mixture of materials ends a chain, too. */
+static int material_behind(const graze_scene *scene, int primitive) {
     int modifier = scene->primitives[primitive].modifier;
+    while (modifier != RAD_VOID && scene->primitives[modifier].type >= RAD_TEXFUNC &&
+           scene->primitives[modifier].modifier != RAD_VOID)
+        modifier = scene->primitives[modifier].modifier;
+    return modifier;
+}
+
+const char *scene_material_name(const graze_scene *scene, int primitive) {
+    int modifier = material_behind(scene, primitive);
     return modifier == RAD_VOID ? "void" : scene->primitives[modifier].original_id;
 }
 
@@ -44,35 +53,83 @@ static void fail(builder *b, graze_status status) {
 static bool is_mirror(const scene_material *material) {
     const vec3 normal = {0, 0, 1};
     graze_surface probe;
-    if (material->emits)
+    if (material->emits || material->mixture)
         return false;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
 }
 
-static int add_material(builder *b, int primitive) {
+static int material_of(builder *, int modifier);
+
+/* The chain of a modifier; all that is needed for patterns is made when the first is met. */
+static graze_status find_chain(builder *b, int modifier, material_chain *chain) {
     graze_scene *scene = b->scene;
-    const rad_primitive *p = &scene->primitives[primitive];
-    scene_material *material = &scene->materials[scene->material_count];
-    *material = (scene_material){.emits = emitter_is(p->type)};
-    graze_status status = GRAZE_OK;
-    if (material->emits)
-        status = emitter_to_light(&material->light, p, b->report);
-    else
-        status = material_from_primitive(&material->reflector, p, b->report);
-    if (!material->emits)
-        material->reflector.model = scene_choose_model(b->settings, p);
-    if (status == GRAZE_OK && p->modifier != RAD_VOID) {
-        const rad_primitive *pattern = &scene->primitives[p->modifier];
-        status = rad_primitive_error(b->report, pattern, "modifies %s %s, which is not supported yet",
-                                     rad_type_name(p->type), p->id);
+    const rad_primitive *p = &scene->primitives[modifier];
+    *chain = (material_chain){.material = modifier};
+    if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
+        return GRAZE_OK;
+    if (!scene->modifiers)
+        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
+    if (!scene->modifiers)
+        return report_out_of_memory(b->report);
+    graze_status status = material_chain_find(chain, scene->modifiers, modifier);
+    if (!status && chain->material == RAD_VOID)
+        return rad_primitive_error(b->report, p, "there is no material behind it");
+    return status;
+}
+
+/* Both materials of a mixture. */
+static graze_status read_mixture(builder *b, scene_material *material, const material_modifier *mixture) {
+    const rad_primitive *p = mixture->primitive;
+    if (mixture->fore == RAD_VOID || mixture->back == RAD_VOID)
+        return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
+    material->mixture = mixture;
+    material->fore = material_of(b, mixture->fore);
+    material->back = material_of(b, mixture->back);
+    if (material->fore < 0 || material->back < 0)
+        return b->status;
+    if (b->scene->materials[material->fore].emits || b->scene->materials[material->back].emits)
+        return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
+    return GRAZE_OK;
+}
+
+static graze_status read_material(builder *b, scene_material *material, const rad_primitive *p) {
+    material->emits = emitter_is(p->type);
+    if (material->emits) {
+        graze_status status = emitter_to_light(&material->light, p, b->report);
+        material->light.modifiers = material->modifiers;
+        return status;
+    }
+    graze_status status = material_from_primitive(&material->reflector, p, b->report);
+    material->reflector.model = scene_choose_model(b->settings, p);
+    return status;
+}
+
+static int add_material(builder *b, int modifier) {
+    graze_scene *scene = b->scene;
+    material_chain chain;
+    scene_material made = {.fore = -1, .back = -1};
+    graze_status status = find_chain(b, modifier, &chain);
+    if (!status) {
+        made.primitive = chain.material;
+        made.modifiers = chain.modifiers;
+        status = chain.mixture ? read_mixture(b, &made, chain.mixture)
+                               : read_material(b, &made, &scene->primitives[chain.material]);
     }
     if (status != GRAZE_OK) {
         fail(b, status);
         return MATERIAL_REFUSED;
     }
-    scene->has_mirrors = scene->has_mirrors || is_mirror(material);
+    scene->materials[scene->material_count] = made;
+    scene->has_mirrors = scene->has_mirrors || is_mirror(&made);
     return (int)scene->material_count++;
+}
+
+/* The material of a modifier, or a negative number where it has none that can be used (reported). */
+static int material_of(builder *b, int modifier) {
+    if (b->material_of[modifier] == -1)
+        b->material_of[modifier] = add_material(b, modifier);
+    return b->material_of[modifier];
 }
 
 /* The material of a surface, or a negative number where it has none that can be used (reported). */
@@ -81,10 +138,7 @@ static int material_of_surface(builder *b, const rad_primitive *surface) {
         fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
         return MATERIAL_REFUSED;
     }
-    int *material = &b->material_of[surface->modifier];
-    if (*material == -1)
-        *material = add_material(b, surface->modifier);
-    return *material;
+    return material_of(b, surface->modifier);
 }
 
 static void add_light(builder *b, scene_light light) {
@@ -96,7 +150,7 @@ static void add_light(builder *b, scene_light light) {
 static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->emits || !material->reflector.has_orientation)
+    if (!flat || material->emits || material->mixture || !material->reflector.has_orientation)
         return;
     vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
     graze_surface probe;
@@ -167,8 +221,9 @@ static void add_source(builder *b, int primitive) {
     add_light(b, light);
 }
 
-static bool is_glow_source(const graze_scene *scene, const rad_primitive *p) {
-    return p->modifier != RAD_VOID && scene->primitives[p->modifier].type == RAD_GLOW;
+static bool is_glow_source(const graze_scene *scene, int primitive) {
+    int material = material_behind(scene, primitive);
+    return material != RAD_VOID && scene->primitives[material].type == RAD_GLOW;
 }
 
 static bool sources_are_apart(const graze_scene *scene) {
@@ -195,7 +250,7 @@ static void add_surfaces(builder *b, size_t count) {
     scene->first_source = scene->light_count;
     for (int glow = 0; glow <= 1; glow++)
         for (size_t i = 0; i < count; i++)
-            if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, &scene->primitives[i]) == glow)
+            if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
     scene->sources_apart = sources_are_apart(scene);
 }
@@ -242,6 +297,7 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK) {
         size_t primitive_count;
         scene->primitives = rad_scene_primitives(scene->description, &primitive_count);
+        scene->primitive_count = primitive_count;
         b.status = scene_check_models(b.settings, scene->primitives, primitive_count, report);
         if (b.status == GRAZE_OK)
             b.status = allocate(&b, primitive_count);
@@ -270,6 +326,7 @@ void graze_scene_destroy(graze_scene *scene) {
     if (!scene)
         return;
     geometry_destroy(scene->geometry);
+    material_modifiers_destroy(scene->modifiers);
     free(scene->lights);
     free(scene->materials);
     free(scene->surfaces);

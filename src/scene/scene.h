@@ -10,6 +10,7 @@
 #include "geometry/geometry.h"
 #include "graze/material.h"
 #include "graze/scene.h"
+#include "material/modifier.h"
 #include "rad/scene_file.h"
 #include "scene/light_tree.h"
 
@@ -27,9 +28,10 @@ typedef enum light_role {
 /* A light: a shape of the scene that shines from its front, or a `source` infinitely far away. */
 typedef struct scene_light {
     rgb radiance;
-    const shape *shape; /* null for a source */
-    int surface;        /* index of the shape; -1 for a source */
-    int primitive;      /* of the surface, in the description */
+    const material_modifier *modifiers; /* patterns, or null */
+    const shape *shape;                 /* null for a source */
+    int surface;                        /* index of the shape; -1 for a source */
+    int primitive;                      /* of the surface, in the description */
     bool glow;
     double glow_radius; /* of a glow: where it is LIGHT_DIRECT; 0: nowhere; negative: LIGHT_NONE everywhere */
     bool spot;
@@ -40,11 +42,15 @@ typedef struct scene_light {
     double half_angle;  /* of a source, radians */
 } scene_light;
 
-/* What a material does: it reflects, or it shines. */
+/* What a material does, with all that modifies it: it reflects, it shines, or it is one of two materials. */
 typedef struct scene_material {
+    int primitive; /* the material, or the mixture, in the description */
     bool emits;
-    graze_material reflector; /* unless `emits` */
-    scene_light light;        /* if it emits: what the material says of a light */
+    graze_material reflector;           /* unless `emits`, nor a mixture */
+    scene_light light;                  /* if it emits: what the material says of a light */
+    const material_modifier *modifiers; /* patterns and textures, or null */
+    const material_modifier *mixture;   /* or null: */
+    int fore, back;                     /* indices into materials */
 } scene_material;
 
 typedef struct scene_surface {
@@ -57,12 +63,14 @@ typedef struct scene_surface {
 struct graze_scene {
     rad_scene *description;
     const rad_primitive *primitives;
+    size_t primitive_count;
     arena *memory;
     shape *shapes; /* surface_count of them, the same index as `surfaces` */
     scene_surface *surfaces;
     size_t surface_count;
     scene_material *materials;
     size_t material_count;
+    material_modifiers *modifiers; /* null where no material has any */
     bool has_mirrors;
     scene_light *lights; /* the shapes first, then the sources */
     size_t light_count;
@@ -72,8 +80,8 @@ struct graze_scene {
     geometry *geometry;
 };
 
-/* The name of the surface with this index in the description, of its modifier, and of the material that this is or is
- * an alias of ("void" where there is none). */
+/* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,
+ * or is an alias of ("void" where there is none; of a mixture of materials its own). */
 const char *scene_name(const graze_scene *, int primitive);
 const char *scene_modifier_name(const graze_scene *, int primitive);
 const char *scene_material_name(const graze_scene *, int primitive);

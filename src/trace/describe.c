@@ -1,6 +1,8 @@
 /* Between rays and hits of the public header and those of paths. */
 #include "trace/describe.h"
 
+#include "trace/appearance.h"
+
 graze_hit describe_nothing(vec3 origin) {
     return (graze_hit){.distance = GRAZE_FAR, .point = origin};
 }
@@ -13,6 +15,9 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
         hit.normal = found->normal;
         bool turned = found->behind && !scene->materials[scene->surfaces[found->surface].material].emits;
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
+        const scene_material *material = &scene->materials[scene->surfaces[found->surface].material];
+        if (!material->emits && !appearance_is_plain(material))
+            hit.shading_normal = appearance_normal(scene, found, 0);
     } else if (found->light >= 0) {
         primitive = scene->lights[found->light].primitive;
         hit.normal = hit.shading_normal = vec3_negate(found->direction);

@@ -71,11 +71,11 @@ static rgb reflectance_for_light(const path *p, const vertex *v, const light_sam
 /* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. */
 static void add_sampled_light(path *p, const vertex *v, int light, double expectation, const double random[2],
                               lobe_choice choice) {
-    light_sample sample = light_draw(p->context->scene, v->point, light, random);
+    light_sample sample = light_draw(p->context->scene, v->point, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
         return;
     double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * sample.density;
-    if (cosine <= 0)
+    if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0))
         return;
     rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice), sample.radiance);
     if (rgb_is_black(reflected))

@@ -4,6 +4,10 @@
 
 #include "trace/path_state.h"
 
+/* The radiance that arrives by the ray from the emitter hit, with its patterns. Where it `lights` the ray's origin, not
+ * as it looks: see light_radiance_at. */
+rgb emission_radiance(const path *, const path_hit *, bool lights);
+
 /* What the path gets of the emitter it has hit, weighted against finding the same by sampling lights. */
 rgb emission_found(const path *, const path_hit *);
 

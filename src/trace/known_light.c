@@ -50,15 +50,16 @@ static path_memory_light look_at(const path *p, const vertex *v, int index, bool
     path_memory_light *kept = p->depth == 0 ? &p->context->memory->lights[index] : NULL;
     if (kept && kept->kept)
         return *kept;
+    bool whole = !v->leans || light_choice_is_above(scene, index, v->point, v->normal);
     path_memory_light found = {.times_mixed = kept ? kept->times_mixed : 0};
     if (found.times_mixed < MIXED_GIVEN_UP)
         found.seen = visibility(scene, v, index);
-    found.integrated = found.seen != GEOMETRY_BLOCKED &&
+    found.integrated = found.seen != GEOMETRY_BLOCKED && whole &&
                        unshadowed_light_at(scene, &v->shading, v->point, index, glossy, &found.whole);
     found.times_mixed += found.seen == GEOMETRY_MIXED;
     if (!kept)
         return found;
-    found.kept = p->context->memory->alike;
+    found.kept = p->context->memory->alike && !v->drawn;
     *kept = found;
     return found;
 }

@@ -124,6 +124,13 @@ bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, lobe_ch
     rgb onward = ends ? rgb_gray(0) : diffuse ? v->ambient : sample.weight;
     if (rgb_is_black(sample.weight) && rgb_is_black(onward))
         return false;
+    if (v->leans && vec3_dot(sample.direction, v->normal) <= 0) {
+        /* Into the surface: a mirror reflects by the surface's own normal then, as Radiance's. */
+        if (lobe != GRAZE_LOBE_MIRROR)
+            return false;
+        sample.direction =
+            vec3_add_scaled(vec3_negate(v->shading.view), 2 * vec3_dot(v->shading.view, v->normal), v->normal);
+    }
     bool ambient = diffuse ? path_bounces_left(p) : !v->gloss_is_ambient;
     p->last = (scattering){
         .lobe = lobe,

@@ -1,6 +1,8 @@
 /* Rays as an observer is told of them. */
 #include "trace/observer.h"
 
+#include "trace/emission.h"
+
 static void tell(const path *p, const path_event *event) {
     p->context->observer->tell(p->context->observer->user, event);
 }
@@ -14,9 +16,7 @@ void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contr
                         .coefficient = p->throughput,
                         .contribution = contribution};
     if (hit->light >= 0) {
-        const scene_light *light = &p->context->scene->lights[hit->light];
-        event.radiance = event.mirrored ? light_radiance(light, hit->direction, hit->normal)
-                                        : light_radiance_at(light, hit->direction, hit->normal, hit->distance);
+        event.radiance = emission_radiance(p, hit, !event.mirrored);
         event.coefficient = rgb_share(contribution, event.radiance);
     }
     tell(p, &event);

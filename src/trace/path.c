@@ -31,7 +31,8 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     const path_context *context = p->context;
     bool wanted = context->cache || context->record;
     if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
-        context->settings->ambient_bounces < 2 || v->no_ambient || v->gloss_is_ambient || v->shading.fresnel)
+        context->settings->ambient_bounces < 2 || v->no_ambient || v->gloss_is_ambient || v->shading.fresnel ||
+        v->leans)
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[2];
@@ -80,6 +81,7 @@ static void follow(path *p, vertex v) {
             known_light_subtract_reflected(p, &v, &hit, found);
         if (!vertex_at_hit(p, &hit, &v) || take_from_cache(p, &hit, &v))
             return;
+        p->length += hit.distance;
     }
 }
 
@@ -89,6 +91,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->first_group = points->group;
+    p->length = 0;
     p->throughput = (rgb){1, 1, 1};
     p->radiance = p->spread = p->ambient_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
@@ -123,6 +126,7 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
         p.radiance = emission_found(&p, first);
     if (vertex_at_hit(&p, first, &v) && vertex_keep_part(&v, context->settings->part)) {
         bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
+        p.length = first->distance;
         p.albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
         follow(&p, v);
     }

@@ -17,6 +17,8 @@ typedef struct vertex {
     graze_surface shading;
     rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
     bool gloss_is_ambient;
+    bool leans;      /* the normal of `shading` is not the surface's own */
+    bool drawn;      /* which material of a mixture the surface has here was drawn at random */
     bool no_ambient; /* diffuse light from surfaces is not followed here (-ae, -ai) */
 } vertex;
 
@@ -41,6 +43,7 @@ typedef struct path {
     const path_context *context;
     sampler *sampler;
     uint32_t first_group; /* that the sampler was at */
+    double length; /* from the eye to the last vertex */
     rgb throughput, radiance;
     rgb spread; /* as in path_sample */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */

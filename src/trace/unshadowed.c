@@ -78,7 +78,7 @@ bool unshadowed_light_at(const graze_scene *scene, const graze_surface *s, vec3 
     bool lobe = glossy && s->specular_lobe == GRAZE_LOBE_GLOSSY;
     receiver r = {{s->x, s->y, s->n}, point, s->local_view, lobe ? &s->lobe : NULL, result};
     *result = (unshadowed_light){0, 0};
-    if (light->spot || s->fresnel || (lobe && s->lobe.model != GRAZE_BRDF_GMD))
+    if (light->spot || light->modifiers || s->fresnel || (lobe && s->lobe.model != GRAZE_BRDF_GMD))
         return false;
     if (!light->shape)
         return scene->sources_apart && light->half_angle < PI / 2 && source_light(&r, light);

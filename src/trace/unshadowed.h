@@ -12,8 +12,8 @@ typedef struct unshadowed_light {
 } unshadowed_light;
 
 /* Whether there are such integrals for the surface at `point`, and that of the lobe where it is wanted. There are none
- * for cylinders and cones, polygons of many corners, spotlights, sources of half the sky and more or such that overlap,
- * mirrors with Fresnel's estimate, and lobes of other models than the new one. */
+ * for cylinders and cones, polygons of many corners, spotlights, lights with patterns, sources of half the sky and more
+ * or such that overlap, mirrors with Fresnel's estimate, and lobes of other models than the new one. */
 bool unshadowed_light_at(const graze_scene *, const graze_surface *, vec3 point, int light, bool glossy,
                          unshadowed_light *);
 

@@ -2,6 +2,7 @@
 #include "trace/vertex.h"
 
 #include "base/angle.h"
+#include "trace/appearance.h"
 
 /* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
 #define SENSOR_HEIGHT 1e-4
@@ -13,6 +14,14 @@ static graze_surface probe(vec3 normal, vec3 view) {
     graze_surface_prepare(&surface, &white, normal, view, NULL);
     surface.diffuse = rgb_gray(PI);
     return surface;
+}
+
+void vertex_find_ambient(const path *p, vertex *v, const graze_material *m) {
+    v->ambient = v->shading.diffuse;
+    v->gloss_is_ambient =
+        v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && m->specularity <= p->context->settings->specular_threshold;
+    if (v->gloss_is_ambient)
+        v->ambient = rgb_add(v->ambient, v->shading.specular);
 }
 
 bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
@@ -27,15 +36,17 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     v->normal = normal;
     v->surface = hit->surface;
     v->no_ambient = scene->surfaces[hit->surface].no_ambient;
-    if (p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT)
+    v->leans = v->drawn = false;
+    bool irradiance = p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT;
+    if (!irradiance && !appearance_is_plain(material)) {
+        appearance_prepare(p, hit, material, v);
+        return true;
+    }
+    if (irradiance)
         v->shading = probe(normal, view);
     else
         graze_surface_prepare(&v->shading, &material->reflector, normal, view, NULL);
-    v->ambient = v->shading.diffuse;
-    v->gloss_is_ambient = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY &&
-                          material->reflector.specularity <= p->context->settings->specular_threshold;
-    if (v->gloss_is_ambient)
-        v->ambient = rgb_add(v->ambient, v->shading.specular);
+    vertex_find_ambient(p, v, &material->reflector);
     return true;
 }
 

@@ -7,6 +7,9 @@
 /* Makes the vertex where the path has hit a reflecting surface. False: it has not, or carries nothing. */
 bool vertex_at_hit(const path *, const path_hit *, vertex *);
 
+/* Sets what the ambient term stands for at a vertex whose shading is prepared from this material. */
+void vertex_find_ambient(const path *, vertex *, const graze_material *);
+
 /* Leaves of a vertex what the part of its light needs. False: nothing. */
 bool vertex_keep_part(vertex *, graze_part);
 

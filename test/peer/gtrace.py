@@ -302,6 +302,17 @@ def cases():
                aim([0, 0, 0.1], np.c_[random.uniform(-0.05, 0.05, 60) * along[:60], along[:60], 0 * along[:60]]),
                "-ab 0", "-ss 1", repeat=16384, samples=65536, own_options="--strategy unweighted")
 
+    tiles = np.c_[[[-2.4 + 1.2*(i % 4), -2.4 + 1.2*(i // 4), 0] for i in range(16)]].repeat(9, axis=0)
+    tiles += np.c_[other.uniform(0.02, 1.08, (144, 2)), np.zeros(144)]
+    yield Case("patterns, textures, mixtures", "lamp patterns", aim([0.3, -1, 5], tiles), "-ab 0", repeat=512)
+    yield Case("patterns seen from below", "lamp patterns", aim([0.3, -1, -5], tiles), "-ab 0", repeat=64)
+    outward, middle = normalized(other.normal(size=(320, 3))), np.where(np.arange(320)[:, None] % 2, [0, 0, 1], [2.5, 0, 1])
+    relief = 0.8 * outward + middle
+    seen = (([1, -3, 1.5] - relief) * outward).sum(1) > 0
+    yield Case("relief", "lamp relief", aim([1, -3, 1.5], relief[seen]), "-ab 0 -st 1", repeat=512)
+    # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
+    yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
+               samples=8192)
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]
@@ -311,6 +322,7 @@ def cases():
     yield Geometry("box", "box", room, "pLNs")
     # The effective length, by way of mirrors, which rtrace 6.0 follows only where their material is `mirror`.
     yield Geometry("box", "box", room, "lRs")
+    yield Geometry("textures", "lamp patterns relief", np.vstack([aim([0.3, -1, 5], tiles), aim([0.3, -1, -5], tiles[:108])]), "LpnNsmM")
     yield Geometry("turned plate", "brushed brushed_panel brushed_glows", np.vstack([inside, np.c_[0.3 * towards, away]]).astype("<f4"), "LpnNsM")
 
 

@@ -203,7 +203,7 @@ static double contribution(const graze_scene *scene, const light_receiver *recei
     *any = false;
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double random[2] = {(i / SIDE + uniform()) / SIDE, (i % SIDE + uniform()) / SIDE};
-        light_sample sample = light_draw(scene, receiver->point, light, random);
+        light_sample sample = light_draw(scene, receiver->point, 0, light, random);
         double cosine = vec3_dot(sample.direction, receiver->surface->n);
         if (sample.light < 0 || cosine <= 0 || rgb_is_black(sample.radiance) ||
             light_role_at(&scene->lights[light], sample.distance) == LIGHT_NONE)

@@ -24,8 +24,8 @@ static void unsupported_types_are_refused_by_name(void **state) {
     assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
                    "not supported");
-    assert_refused("void brightfunc p 2 noise . 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
-                   ":1:1: brightfunc p", "not supported");
+    assert_refused("void specfile p 1 noise 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
+                   ":1:1: specfile p", "not supported");
     assert_refused("void plastic2 m 4 Nx Ny Nz . 0 6 1 1 1 .1 .1 .1 m sphere s 0 0 4 0 0 0 1\n", ":1:1: plastic2 m",
                    "function");
 }
