@@ -26,6 +26,8 @@ typedef struct pixel {
     const rendering *picture;
     int column, row;
     path_memory *memory;
+    bool cast; /* where all samples are of one ray: it has been */
+    path_hit first;
 } pixel;
 
 static bool is_stopped(const rendering *p) {
@@ -53,17 +55,29 @@ static bool sample_camera(const picture_settings *s, sampler *points, camera_sam
     return is_spread(s);
 }
 
-static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck) {
-    const pixel *p = user;
+/* What a sample's ray hits first. False: there is no such ray. */
+static bool cast_sample(pixel *p, const path_context *context, sampler *points, estimate_luck *luck) {
     camera_sample at;
     graze_ray ray;
-    *luck = sample_camera(&p->picture->settings, points, &at) ? ESTIMATE_PLACE : ESTIMATE_EXACT;
+    if (p->cast)
+        return true;
+    bool spread = sample_camera(&p->picture->settings, points, &at);
+    *luck = spread ? ESTIMATE_PLACE : ESTIMATE_EXACT;
     if (!camera_ray(&p->picture->settings, p->column, p->row, &at, &ray))
-        return (path_sample){.noisy = false};
+        return false;
+    p->first = path_cast(context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
+    p->cast = !spread;
+    return true;
+}
+
+static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck) {
+    pixel *p = user;
     path_context context = {
         .scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory, .cache = p->picture->cache};
-    path_hit first = path_cast(&context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
-    path_sample sample = path_radiance(&context, &first, points);
+    *luck = ESTIMATE_EXACT;
+    if (!cast_sample(p, &context, points, luck))
+        return (path_sample){.noisy = false};
+    path_sample sample = path_radiance(&context, &p->first, points);
     if (sample.noisy)
         *luck = sample.searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
     return sample;
@@ -74,7 +88,7 @@ static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *s
     uint64_t number = (uint64_t)p->row * (uint64_t)p->picture->settings.width + (uint64_t)p->column;
     graze_answer answer;
     path_memory known = {.alike = !is_spread(&p->picture->settings)};
-    pixel remembering = {p->picture, p->column, p->row, &known};
+    pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .memory = &known};
     estimate_with_parts(settings, number, sample_pixel, &remembering, &answer, parts);
     return answer;
 }
@@ -109,7 +123,7 @@ static void render_pixel(rendering *p, int column, int row) {
         return;
     estimate_parts parts = {{0, 0, 0}, {0, 0, 0}};
     bool layers = p->settings.content == PICTURE_LAYERS;
-    film_pixel result = {.answer = estimate_pixel(&(pixel){p, column, row, NULL}, &p->trace, layers ? &parts : NULL)};
+    film_pixel result = {.answer = estimate_pixel(&(pixel){.picture = p, .column = column, .row = row}, &p->trace, layers ? &parts : NULL)};
     result.albedo = parts.albedo;
     result.indirect = parts.indirect;
     result.reached = relative_error(&result.answer, p->trace.floor);
@@ -151,8 +165,9 @@ static pilot make_pilot(const rendering *whole) {
 static pixel pilot_pixel(const pilot *p, size_t index) {
     const picture_settings *s = &p->picture->settings;
     int column = (int)(index % (size_t)p->columns), row = (int)(index / (size_t)p->columns);
-    return (pixel){p->picture, (int)((column + 0.5) * s->width / p->columns), (int)((row + 0.5) * s->height / p->rows),
-                   NULL};
+    return (pixel){.picture = p->picture,
+                   .column = (int)((column + 0.5) * s->width / p->columns),
+                   .row = (int)((row + 0.5) * s->height / p->rows)};
 }
 
 static void sample_pilot(void *user, size_t index, int worker) {

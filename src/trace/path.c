@@ -50,36 +50,42 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
 }
 
 /* Gathers light at a vertex and goes on from there until the path ends. */
-static void follow(path *p, vertex v) {
+static void follow(path *p, gathering *here) {
     const path_context *context = p->context;
-    light_choice lights;
-    for (;;) {
-        p->ambient_limit = v.no_ambient ? 0 : context->settings->ambient_bounces;
-        bool scattered = p->scattered;
+    gathering later;
+    for (;; here = &later) {
+        vertex *v = &here->vertex;
+        p->ambient_limit = v->no_ambient ? 0 : context->settings->ambient_bounces;
+        bool scattered = p->scattered, decided = here->decided;
         if (!path_bounces_left(p))
-            add_ambient_value(p, &v);
-        lobe_choice choice = lobes_choose(p, &v);
-        direct_light_prepare(p, &v, &lights);
-        p->known.controls = p->known.settled = 0;
-        if (light_choice_is_possible(&lights) && !context->record) {
-            if (!context->observer)
-                known_light_add(p, &v, &lights);
-            direct_light_add(p, &v, &lights, choice);
+            add_ambient_value(p, v);
+        if (!decided) {
+            here->lobes = lobes_choose(p, v);
+            direct_light_prepare(p, v, &here->lights);
+            here->decided = !v->drawn;
         }
-        if (!context->observer && known_light_is_all(p, &v, &lights))
+        p->known.controls = p->known.settled = 0;
+        if (light_choice_is_possible(&here->lights) && !context->record) {
+            if (!context->observer)
+                known_light_add(p, v, &here->lights);
+            direct_light_add(p, v, &here->lights, here->lobes);
+        }
+        /* Where it was not all for an earlier path, it is not for this one. */
+        if (!context->observer && !decided && known_light_is_all(p, v, &here->lights))
             return;
         vec3 direction;
-        if (!lobes_reflect(p, &v, &lights, choice, &direction))
+        if (!lobes_reflect(p, v, &here->lights, here->lobes, &direction))
             return;
-        path_hit hit = path_cast(context, v.point, direction, GEOMETRY_FAR, v.surface);
+        path_hit hit = path_cast(context, v->point, direction, GEOMETRY_FAR, v->surface);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
-        observe_ray(p, v.point, &hit, found);
+        observe_ray(p, v->point, &hit, found);
         if (!scattered)
             p->direct = p->radiance;
         if (p->known.controls)
-            known_light_subtract_reflected(p, &v, &hit, found);
-        if (!vertex_at_hit(p, &hit, &v) || take_from_cache(p, &hit, &v))
+            known_light_subtract_reflected(p, v, &hit, found);
+        later.decided = false;
+        if (!vertex_at_hit(p, &hit, &later.vertex) || take_from_cache(p, &hit, &later.vertex))
             return;
         p->length += hit.distance;
     }
@@ -118,17 +124,25 @@ static path_sample path_end(const path *p) {
     return sample;
 }
 
+/* Where a path begins: in the memory, if others begin there, too. */
+static gathering *begin_at(const path_context *context, gathering *own) {
+    bool alike = context->memory && context->memory->alike;
+    own->decided = false;
+    return alike ? &context->memory->first : own;
+}
+
 path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
     path p;
     path_start(&p, context, points);
-    vertex v;
+    gathering own, *here = begin_at(context, &own);
+    vertex *v = &here->vertex;
     if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
         p.radiance = emission_found(&p, first);
-    if (vertex_at_hit(&p, first, &v) && vertex_keep_part(&v, context->settings->part)) {
+    if (here->decided || (vertex_at_hit(&p, first, v) && vertex_keep_part(v, context->settings->part))) {
         bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
         p.length = first->distance;
-        p.albedo = probe ? rgb_gray(1) : rgb_add(v.shading.diffuse, v.shading.specular);
-        follow(&p, v);
+        p.albedo = probe ? rgb_gray(1) : rgb_add(v->shading.diffuse, v->shading.specular);
+        follow(&p, here);
     }
     return path_end(&p);
 }
@@ -138,7 +152,9 @@ static path_sample path_from(const path_context *context, sampler *points, verte
     path p;
     path_start(&p, context, points);
     p.ambient_depth = ambient_depth;
-    follow(&p, v);
+    gathering own, *here = begin_at(context, &own);
+    here->vertex = v;
+    follow(&p, here);
     return path_end(&p);
 }
 

@@ -3,6 +3,7 @@
 #define TRACE_PATH_MEMORY_H
 
 #include "geometry/shaft.h"
+#include "trace/gathering.h"
 #include "trace/unshadowed.h"
 
 /* A scene has few lights if it has no more than this. At the first point all of few lights are sampled, and each has a
@@ -21,6 +22,7 @@ typedef struct path_memory_light {
 /* Belongs to the estimate, whose paths come one after another, and begins as zeros but for `alike`. */
 typedef struct path_memory {
     bool alike; /* all paths have the same first point */
+    gathering first; /* where they do */
     path_memory_light lights[PATH_FEW_LIGHTS];
 } path_memory;
 

@@ -2,25 +2,11 @@
 #ifndef TRACE_PATH_STATE_H
 #define TRACE_PATH_STATE_H
 
-#include "graze/material.h"
 #include "scene/light.h"
-#include "scene/light_choice.h"
+#include "trace/gathering.h"
 #include "trace/hit.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
-
-/* A point that light is gathered at, and how the path got there. */
-typedef struct vertex {
-    vec3 point;
-    vec3 normal; /* of the surface as it stands in space, on the viewer's side; that of `shading` may lean */
-    int surface; /* -1: a sensor */
-    graze_surface shading;
-    rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
-    bool gloss_is_ambient;
-    bool leans;      /* the normal of `shading` is not the surface's own */
-    bool drawn;      /* which material of a mixture the surface has here was drawn at random */
-    bool no_ambient; /* diffuse light from surfaces is not followed here (-ae, -ai) */
-} vertex;
 
 /* The last reflection, as an emitter found next needs it. */
 typedef struct scattering {
@@ -60,13 +46,6 @@ typedef struct path {
     path_control controls[PATH_CONTROLS]; /* so many are set: */
     int control_count;
 } path;
-
-/* Probabilities of going on with each lobe; they sum to at most 1. Where a lobe `ends`, the ray only looks for lights
- * that shine on the vertex: what sampling the lights would find. */
-typedef struct lobe_choice {
-    double diffuse, specular;
-    bool diffuse_ends, specular_ends;
-} lobe_choice;
 
 /* Whether another diffuse reflection may follow. */
 static inline bool path_bounces_left(const path *p) {

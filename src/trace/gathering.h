@@ -1,0 +1,37 @@
+/* A point that light is gathered at, and what is decided there before anything is drawn. */
+#ifndef TRACE_GATHERING_H
+#define TRACE_GATHERING_H
+
+#include <stdbool.h>
+
+#include "graze/material.h"
+#include "scene/light_choice.h"
+
+typedef struct vertex {
+    vec3 point;
+    vec3 normal; /* of the surface as it stands in space, on the viewer's side; that of `shading` may lean */
+    int surface; /* -1: a sensor */
+    graze_surface shading;
+    rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
+    bool gloss_is_ambient;
+    bool leans;      /* the normal of `shading` is not the surface's own */
+    bool drawn;      /* which material of a mixture the surface has here was drawn at random */
+    bool no_ambient; /* diffuse light from surfaces is not followed here (-ae, -ai) */
+} vertex;
+
+/* Probabilities of going on with each lobe; they sum to at most 1. Where a lobe `ends`, the ray only looks for lights
+ * that shine on the vertex: what sampling the lights would find. */
+typedef struct lobe_choice {
+    double diffuse, specular;
+    bool diffuse_ends, specular_ends;
+} lobe_choice;
+
+/* Large: not to be copied, also because the lights refer to the vertex. */
+typedef struct gathering {
+    vertex vertex;
+    bool decided; /* the rest is known, also to other paths that come to the vertex: */
+    lobe_choice lobes;
+    light_choice lights;
+} gathering;
+
+#endif
