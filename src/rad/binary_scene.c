@@ -30,7 +30,7 @@ static void read_types(binary_scene *s) {
             return;
         }
         rad_type type;
-        s->types[s->type_count] = !strcmp(name, "alias")                        ? (int)RAD_ALIAS
+        s->types[s->type_count] = !strcmp(name, "alias")                     ? (int)RAD_ALIAS
                                   : rad_type_find(name, strlen(name), &type) ? (int)type
                                                                              : (int)RAD_UNKNOWN;
         s->type_names[s->type_count++] = name;
@@ -85,7 +85,8 @@ static graze_status read_reals(binary_scene *s, rad_raw *raw) {
     return s->bytes->status;
 }
 
-/* An alias without a string argument stands for its modifier, and inherits that one's; with one, for what that names. */
+/* An alias without a string argument stands for its modifier, and inherits that one's; with one, for what that names.
+ */
 static graze_status finish_alias(binary_scene *s, rad_raw *raw) {
     if (raw->string_count > 0)
         return GRAZE_OK;

@@ -1,4 +1,5 @@
-/* Radiance's binary files, read front to back: big-endian integers, numbers of five bytes, texts that a zero byte ends. */
+/* Radiance's binary files, read front to back: big-endian integers, numbers of five bytes, texts that a zero byte ends.
+ */
 #ifndef RAD_BYTES_H
 #define RAD_BYTES_H
 

@@ -25,16 +25,15 @@ static graze_status take(void *user, rad_raw *raw) {
     return c->sink->take(c->sink->user, raw);
 }
 
-static graze_status read_named(rad_reader *reader, const char *name, const rad_context *context,
-                               const rad_sink *sink) {
+static graze_status read_named(rad_reader *reader, const char *name, const rad_context *context, const rad_sink *sink) {
     if (name[0] == '!')
         return rad_reader_command(reader, name + 1, context, sink);
     const char *path = rad_path_resolve(reader->memory, context->directory, name);
     return path ? rad_reader_file(reader, path, context, sink) : report_out_of_memory(reader->report);
 }
 
-graze_status rad_octree_read(rad_reader *reader, const whole_file *file, const place *where,
-                             const rad_context *context, const rad_sink *sink) {
+graze_status rad_octree_read(rad_reader *reader, const whole_file *file, const place *where, const rad_context *context,
+                             const rad_sink *sink) {
     rad_bytes bytes = rad_bytes_of(file, "octree", where, reader->report);
     int object_size = rad_bytes_begin(&bytes, LOWEST_MAGIC);
     for (int i = 0; i < 4; i++)

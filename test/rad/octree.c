@@ -230,12 +230,9 @@ static void survives_damage(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_a_frozen_octree),
-        cmocka_unit_test(reads_the_files_of_an_octree),
-        cmocka_unit_test(octrees_and_files_are_one_scene),
-        cmocka_unit_test(says_when_an_octree_is_old),
-        cmocka_unit_test(tells_of_damage_with_its_place),
-        cmocka_unit_test(survives_damage),
+        cmocka_unit_test(reads_a_frozen_octree),           cmocka_unit_test(reads_the_files_of_an_octree),
+        cmocka_unit_test(octrees_and_files_are_one_scene), cmocka_unit_test(says_when_an_octree_is_old),
+        cmocka_unit_test(tells_of_damage_with_its_place),  cmocka_unit_test(survives_damage),
     };
     return cmocka_run_group_tests(tests, enter_directory, leave_directory);
 }
