@@ -33,42 +33,73 @@ static graze_status report_trouble(const trouble *t, const graze_report *report)
     return GRAZE_SYSTEM_ERROR;
 }
 
-static bool find_bounds(geometry *g, size_t count) {
-    g->reach = malloc((count + 1) * sizeof *g->reach);
-    if (!g->reach)
-        return false;
-    vec3 lower = {INFINITY, INFINITY, INFINITY}, upper = vec3_negate(lower);
-    for (size_t i = 0; i < count; i++) {
-        vec3 a, b;
-        shape_bounds(&g->shapes[i], &a, &b);
-        g->reach[i] = fmax(vec3_max_abs(a), vec3_max_abs(b));
-        g->largest_reach = fmax(g->largest_reach, g->reach[i]);
-        lower = vec3_make(fmin(lower.x, a.x), fmin(lower.y, a.y), fmin(lower.z, a.z));
-        upper = vec3_make(fmax(upper.x, b.x), fmax(upper.y, b.y), fmax(upper.z, b.z));
+typedef struct box {
+    vec3 lower, upper;
+} box;
+
+static box box_join(box a, box b) {
+    return (box){{fmin(a.lower.x, b.lower.x), fmin(a.lower.y, b.lower.y), fmin(a.lower.z, b.lower.z)},
+                 {fmax(a.upper.x, b.upper.x), fmax(a.upper.y, b.upper.y), fmax(a.upper.z, b.upper.z)}};
+}
+
+static double box_reach(box b) {
+    return fmax(vec3_max_abs(b.lower), vec3_max_abs(b.upper));
+}
+
+/* Copies that hold something; their groups are known already. */
+static box join_copies(const geometry *g, geometry_tree *tree, box all) {
+    for (size_t i = 0; i < tree->placement_count; i++) {
+        const geometry_placement *placement = &tree->placements[i];
+        box copy;
+        if (!g->trees[placement->group].scene)
+            continue;
+        tree->placed[tree->placed_count++] = (uint32_t)i;
+        geometry_copy_bounds(g, placement, &copy.lower, &copy.upper);
+        all = box_join(all, copy);
     }
-    vec3 half = vec3_scale(0.5, vec3_subtract(upper, lower));
-    g->center = vec3_add(lower, half);
+    return all;
+}
+
+static bool find_bounds(const geometry *g, geometry_tree *tree) {
+    tree->reach = malloc((tree->shape_count + 1) * sizeof *tree->reach);
+    tree->placed = malloc((tree->placement_count + 1) * sizeof *tree->placed);
+    if (!tree->reach || !tree->placed)
+        return false;
+    box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < tree->shape_count; i++) {
+        box one;
+        shape_bounds(&tree->shapes[i], &one.lower, &one.upper);
+        tree->reach[i] = box_reach(one);
+        all = box_join(all, one);
+    }
+    all = join_copies(g, tree, all);
+    tree->lower = all.lower;
+    tree->upper = all.upper;
+    vec3 half = vec3_scale(0.5, vec3_subtract(all.upper, all.lower));
+    tree->center = vec3_add(all.lower, half);
     int exponent;
     frexp(vec3_max_abs(half), &exponent);
-    g->scale = ldexp(1, -exponent - 1);
+    tree->scale = ldexp(1, -exponent - 1);
     /* At most sqrt(3) times the half-width that the scale brings below 1/2; a little more takes in roundings. */
-    g->radius = (1 + 1e-9) * vec3_length(vec3_scale(g->scale, half)) / g->scale + 1e-15 * vec3_max_abs(g->center);
+    tree->radius =
+        (1 + 1e-9) * vec3_length(vec3_scale(tree->scale, half)) / tree->scale + 1e-15 * vec3_max_abs(tree->center);
     return true;
 }
 
-vec3 geometry_corner(const geometry *g, const geometry_triangle *triangle, int corner) {
-    const shape *s = &g->shapes[triangle->surface];
+vec3 geometry_corner(const geometry_tree *tree, const geometry_triangle *triangle, int corner) {
+    const shape *s = &tree->shapes[triangle->surface];
     return s->polygon.vertices[s->polygon.triangles[triangle->index][corner]];
 }
 
 /* The least height of a triangle, in Embree's units. */
-static double triangle_height(const geometry *g, const geometry_triangle *triangle, vec3 *normal) {
-    vec3 a = geometry_corner(g, triangle, 0);
-    vec3 ab = vec3_subtract(geometry_corner(g, triangle, 1), a), ac = vec3_subtract(geometry_corner(g, triangle, 2), a);
+static double triangle_height(const geometry_tree *tree, const geometry_triangle *triangle, vec3 *normal) {
+    vec3 a = geometry_corner(tree, triangle, 0);
+    vec3 ab = vec3_subtract(geometry_corner(tree, triangle, 1), a),
+         ac = vec3_subtract(geometry_corner(tree, triangle, 2), a);
     vec3 bc = vec3_subtract(ac, ab);
     double longest2 = fmax(vec3_dot(ab, ab), fmax(vec3_dot(ac, ac), vec3_dot(bc, bc)));
     *normal = vec3_cross(ab, ac);
-    return g->scale * vec3_length(*normal) / sqrt(longest2);
+    return tree->scale * vec3_length(*normal) / sqrt(longest2);
 }
 
 static double triangle_border(double height) {
@@ -76,54 +107,55 @@ static double triangle_border(double height) {
 }
 
 /* The farthest corner's distance from the scene's middle, in Embree's units. */
-static double triangle_reach(const geometry *g, const geometry_triangle *triangle) {
+static double triangle_reach(const geometry_tree *tree, const geometry_triangle *triangle) {
     double reach = 0;
     for (int i = 0; i < 3; i++)
-        reach = fmax(reach, g->scale * vec3_length(vec3_subtract(geometry_corner(g, triangle, i), g->center)));
+        reach = fmax(reach, tree->scale * vec3_length(vec3_subtract(geometry_corner(tree, triangle, i), tree->center)));
     return reach;
 }
 
-static void set_tolerances(const geometry *g, geometry_triangle *triangle) {
+static void set_tolerances(const geometry_tree *tree, geometry_triangle *triangle) {
     vec3 normal;
-    double height = triangle_height(g, triangle, &normal), border = triangle_border(height);
+    double height = triangle_height(tree, triangle, &normal), border = triangle_border(height);
     /* Where the polygon is not flat, its normal does not tell how obliquely the triangle is met. */
     bool flat = vec3_length(vec3_cross(normal, triangle->normal)) < 1e-6 * vec3_length(normal);
-    triangle->error = (float)(GEOMETRY_UNIT_ERROR * triangle_reach(g, triangle) + border);
+    triangle->error = (float)(GEOMETRY_UNIT_ERROR * triangle_reach(tree, triangle) + border);
     triangle->margin = flat ? (float)((GEOMETRY_FLOAT_ERROR + border) / height) : INFINITY;
 }
 
-static void collect_polygon(const geometry *g, int surface, geometry_triangle *triangle) {
-    const shape *s = &g->shapes[surface];
+static void collect_polygon(const geometry_tree *tree, int surface, geometry_triangle *triangle) {
+    const shape *s = &tree->shapes[surface];
     for (uint32_t k = 0; k < s->polygon.triangle_count; k++, triangle++) {
         *triangle = (geometry_triangle){.normal = s->polygon.normal,
                                         .center = s->polygon.center,
                                         .surface = surface,
                                         .index = k,
                                         .shines = s->shines};
-        set_tolerances(g, triangle);
+        set_tolerances(tree, triangle);
     }
 }
 
-static bool collect_surfaces(geometry *g, size_t count) {
+static bool collect_surfaces(geometry_tree *tree) {
+    size_t count = tree->shape_count;
     for (size_t i = 0; i < count; i++) {
-        if (g->shapes[i].kind == SHAPE_POLYGON)
-            g->triangle_count += g->shapes[i].polygon.triangle_count;
+        if (tree->shapes[i].kind == SHAPE_POLYGON)
+            tree->triangle_count += tree->shapes[i].polygon.triangle_count;
         else
-            g->curved_count++;
+            tree->curved_count++;
     }
-    g->triangles = aligned_alloc(64, (g->triangle_count + 1) * sizeof *g->triangles);
-    g->curved = malloc((g->curved_count + 1) * sizeof *g->curved);
-    if (!g->triangles || !g->curved)
+    tree->triangles = aligned_alloc(64, (tree->triangle_count + 1) * sizeof *tree->triangles);
+    tree->curved = malloc((tree->curved_count + 1) * sizeof *tree->curved);
+    if (!tree->triangles || !tree->curved)
         return false;
-    geometry_triangle *triangle = g->triangles;
-    int *curved = g->curved;
+    geometry_triangle *triangle = tree->triangles;
+    int *curved = tree->curved;
     for (size_t i = 0; i < count; i++) {
-        if (g->shapes[i].kind != SHAPE_POLYGON) {
+        if (tree->shapes[i].kind != SHAPE_POLYGON) {
             *curved++ = (int)i;
             continue;
         }
-        collect_polygon(g, (int)i, triangle);
-        triangle += g->shapes[i].polygon.triangle_count;
+        collect_polygon(tree, (int)i, triangle);
+        triangle += tree->shapes[i].polygon.triangle_count;
     }
     return true;
 }
@@ -137,11 +169,11 @@ static vec3 border_corner(vec3 corner, vec3 next, vec3 previous, double border) 
 }
 
 /* The triangle's corners as Embree gets them. */
-static void put_triangle(const geometry *g, const geometry_triangle *triangle, float *out) {
+static void put_triangle(const geometry_tree *tree, const geometry_triangle *triangle, float *out) {
     vec3 v[3], normal;
-    double border = triangle_border(triangle_height(g, triangle, &normal));
+    double border = triangle_border(triangle_height(tree, triangle, &normal));
     for (int i = 0; i < 3; i++)
-        v[i] = vec3_scale(g->scale, vec3_subtract(geometry_corner(g, triangle, i), g->center));
+        v[i] = vec3_scale(tree->scale, vec3_subtract(geometry_corner(tree, triangle, i), tree->center));
     for (int i = 0; i < 3; i++) {
         vec3 corner = border_corner(v[i], v[(i + 1) % 3], v[(i + 2) % 3], border);
         *out++ = (float)corner.x;
@@ -151,134 +183,234 @@ static void put_triangle(const geometry *g, const geometry_triangle *triangle, f
 }
 
 /* Adds the geometry to the scene, which then owns it. */
-static void attach(geometry *g, RTCGeometry part, enum RTCBuildQuality quality) {
+static unsigned attach(const geometry_tree *tree, RTCGeometry part, enum RTCBuildQuality quality) {
     rtcSetGeometryBuildQuality(part, quality);
     rtcCommitGeometry(part);
-    rtcAttachGeometry(g->scene, part);
+    unsigned id = rtcAttachGeometry(tree->scene, part);
     rtcReleaseGeometry(part);
+    return id;
 }
 
-static bool attach_triangles(geometry *g, enum RTCBuildQuality quality) {
-    RTCGeometry mesh = rtcNewGeometry(g->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+static bool attach_triangles(geometry_tree *tree, RTCDevice device, enum RTCBuildQuality quality) {
+    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (!mesh)
         return false;
     float *vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                              3 * g->triangle_count);
+                                              3 * tree->triangle_count);
     unsigned *indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-                                                g->triangle_count);
+                                                tree->triangle_count);
     if (!vertices || !indices) {
         rtcReleaseGeometry(mesh);
         return false;
     }
-    for (size_t i = 0; i < g->triangle_count; i++)
-        put_triangle(g, &g->triangles[i], vertices + 9 * i);
-    for (size_t i = 0; i < 3 * g->triangle_count; i++)
+    for (size_t i = 0; i < tree->triangle_count; i++)
+        put_triangle(tree, &tree->triangles[i], vertices + 9 * i);
+    for (size_t i = 0; i < 3 * tree->triangle_count; i++)
         indices[i] = (unsigned)i;
     rtcSetGeometryIntersectFilterFunction(mesh, geometry_filter_intersect);
     rtcSetGeometryOccludedFilterFunction(mesh, geometry_filter_occluded);
-    attach(g, mesh, quality);
+    tree->triangles_id = attach(tree, mesh, quality);
     return true;
 }
 
 /* Wide enough for what single precision does to boxes and rays alike. */
-static void bound_curved(const struct RTCBoundsFunctionArguments *args) {
-    const geometry *g = args->geometryUserPtr;
-    vec3 lower, upper;
-    shape_bounds(&g->shapes[g->curved[args->primID]], &lower, &upper);
-    struct RTCBounds *box = args->bounds_o;
-    vec3 a = vec3_scale(g->scale, vec3_subtract(lower, g->center));
-    vec3 b = vec3_scale(g->scale, vec3_subtract(upper, g->center));
-    box->lower_x = (float)(a.x - GEOMETRY_FLOAT_ERROR);
-    box->lower_y = (float)(a.y - GEOMETRY_FLOAT_ERROR);
-    box->lower_z = (float)(a.z - GEOMETRY_FLOAT_ERROR);
-    box->upper_x = (float)(b.x + GEOMETRY_FLOAT_ERROR);
-    box->upper_y = (float)(b.y + GEOMETRY_FLOAT_ERROR);
-    box->upper_z = (float)(b.z + GEOMETRY_FLOAT_ERROR);
+static void put_bounds(const geometry_tree *tree, box b, struct RTCBounds *out) {
+    vec3 lower = vec3_scale(tree->scale, vec3_subtract(b.lower, tree->center));
+    vec3 upper = vec3_scale(tree->scale, vec3_subtract(b.upper, tree->center));
+    out->lower_x = (float)(lower.x - GEOMETRY_FLOAT_ERROR);
+    out->lower_y = (float)(lower.y - GEOMETRY_FLOAT_ERROR);
+    out->lower_z = (float)(lower.z - GEOMETRY_FLOAT_ERROR);
+    out->upper_x = (float)(upper.x + GEOMETRY_FLOAT_ERROR);
+    out->upper_y = (float)(upper.y + GEOMETRY_FLOAT_ERROR);
+    out->upper_z = (float)(upper.z + GEOMETRY_FLOAT_ERROR);
 }
 
-static bool attach_curved(geometry *g, enum RTCBuildQuality quality) {
-    RTCGeometry part = rtcNewGeometry(g->device, RTC_GEOMETRY_TYPE_USER);
+/* What the callbacks that give bounds are given. */
+typedef struct bounded {
+    const geometry *geometry;
+    const geometry_tree *tree;
+} bounded;
+
+static void bound_curved(const struct RTCBoundsFunctionArguments *args) {
+    const bounded *of = args->geometryUserPtr;
+    box b;
+    shape_bounds(&of->tree->shapes[of->tree->curved[args->primID]], &b.lower, &b.upper);
+    put_bounds(of->tree, b, args->bounds_o);
+}
+
+static void bound_copy(const struct RTCBoundsFunctionArguments *args) {
+    const bounded *of = args->geometryUserPtr;
+    box b;
+    geometry_copy_bounds(of->geometry, &of->tree->placements[of->tree->placed[args->primID]], &b.lower, &b.upper);
+    put_bounds(of->tree, b, args->bounds_o);
+}
+
+/* A geometry of `count` primitives that Embree knows by their bounds alone. */
+static RTCGeometry user_geometry(RTCDevice device, size_t count, const bounded *of, RTCBoundsFunction bounds) {
+    RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    if (!part)
+        return NULL;
+    rtcSetGeometryUserPrimitiveCount(part, (unsigned)count);
+    rtcSetGeometryUserData(part, (void *)of);
+    rtcSetGeometryBoundsFunction(part, bounds, NULL);
+    return part;
+}
+
+static bool attach_curved(const bounded *of, RTCDevice device, enum RTCBuildQuality quality) {
+    RTCGeometry part = user_geometry(device, of->tree->curved_count, of, bound_curved);
     if (!part)
         return false;
-    rtcSetGeometryUserPrimitiveCount(part, (unsigned)g->curved_count);
-    rtcSetGeometryUserData(part, g);
-    rtcSetGeometryBoundsFunction(part, bound_curved, NULL);
     rtcSetGeometryIntersectFunction(part, geometry_intersect_curved);
     rtcSetGeometryOccludedFunction(part, geometry_occluded_curved);
-    attach(g, part, quality);
+    (void)attach(of->tree, part, quality);
+    return true;
+}
+
+static bool attach_copies(const bounded *of, RTCDevice device, enum RTCBuildQuality quality, unsigned *id) {
+    RTCGeometry part = user_geometry(device, of->tree->placed_count, of, bound_copy);
+    if (!part)
+        return false;
+    rtcSetGeometryIntersectFunction(part, geometry_intersect_copy);
+    rtcSetGeometryOccludedFunction(part, geometry_occluded_copy);
+    *id = attach(of->tree, part, quality);
     return true;
 }
 
 /* False where Embree gives nothing, whether it tells of trouble or not. */
-static bool fill_scene(geometry *g, bool large) {
+static bool fill_scene(const geometry *g, geometry_tree *tree) {
+    bool large = tree->triangle_count + tree->curved_count + tree->placed_count >= LARGE_SCENE;
     enum RTCBuildQuality quality = large ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-    g->scene = rtcNewScene(g->device);
-    if (!g->scene)
+    const bounded of = {g, tree}; /* callbacks come while the scene is committed */
+    tree->scene = rtcNewScene(g->device);
+    if (!tree->scene)
         return false;
     /* A tenth to a quarter slower; without it a ray leaks from a box of triangles now and then. */
-    rtcSetSceneFlags(g->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(g->scene, quality);
-    /* Triangles are attached first: offer_neighbour() tells them by that. */
-    if (g->triangle_count && !attach_triangles(g, quality))
+    rtcSetSceneFlags(tree->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(tree->scene, quality);
+    if (tree->triangle_count && !attach_triangles(tree, g->device, quality))
         return false;
-    if (g->curved_count && !attach_curved(g, quality))
+    if (tree->curved_count && !attach_curved(&of, g->device, quality))
         return false;
-    rtcCommitScene(g->scene);
+    if (tree->placed_count && !attach_copies(&of, g->device, quality, &tree->placed_id))
+        return false;
+    rtcCommitScene(tree->scene);
     return true;
 }
 
-static graze_status build_scene(geometry *g, int threads, const graze_report *report) {
-    bool large = g->triangle_count + g->curved_count >= LARGE_SCENE;
+static bool is_large(const geometry *g) {
+    size_t primitives = 0;
+    for (size_t i = 0; i < g->tree_count; i++)
+        primitives += g->trees[i].shape_count + g->trees[i].placement_count;
+    return primitives >= LARGE_SCENE;
+}
+
+static RTCDevice make_device(const geometry *g, int threads) {
     char settings[64];
-    snprintf(settings, sizeof settings, "threads=%d,set_affinity=0", large && threads > 1 ? threads : 1);
+    snprintf(settings, sizeof settings, "threads=%d,set_affinity=0", threads > 1 && is_large(g) ? threads : 1);
+    return rtcNewDevice(settings);
+}
+
+/* Embree's part of a group's tree. */
+static graze_status build_scene(geometry *g, geometry_tree *tree, int threads, const graze_report *report) {
     trouble t = {.code = RTC_ERROR_NONE};
-    g->device = rtcNewDevice(settings);
+    if (!g->device)
+        g->device = make_device(g, threads);
     if (!g->device) {
         note_trouble(&t, rtcGetDeviceError(NULL), "no device");
         return report_trouble(&t, report);
     }
     rtcSetDeviceErrorFunction(g->device, note_trouble, &t);
-    if (!fill_scene(g, large))
+    if (!fill_scene(g, tree))
         note_trouble(&t, RTC_ERROR_UNKNOWN, "no scene");
     rtcSetDeviceErrorFunction(g->device, NULL, NULL);
     return t.code == RTC_ERROR_NONE ? GRAZE_OK : report_trouble(&t, report);
 }
 
-graze_status geometry_build(geometry **made, const shape *shapes, size_t count, int threads,
+/* Numbers the surfaces of copies; false where there are more than numbers. */
+static bool number_surfaces(const geometry *g, geometry_tree *tree) {
+    int64_t next = (int64_t)tree->shape_count;
+    for (size_t i = 0; i < tree->placement_count; i++) {
+        const geometry_tree *copied = &g->trees[tree->placements[i].group];
+        tree->firsts[i] = next;
+        next += copied->firsts[copied->placement_count];
+        if (next > INT64_MAX / 2)
+            return false;
+    }
+    tree->firsts[tree->placement_count] = next;
+    return true;
+}
+
+static graze_status build_tree(geometry *g, geometry_tree *tree, const geometry_group *group, int threads,
+                               const graze_report *report) {
+    tree->shapes = group->shapes;
+    tree->shape_count = group->shape_count;
+    tree->placements = group->placements;
+    tree->placement_count = group->placement_count;
+    tree->triangles_id = tree->placed_id = RTC_INVALID_GEOMETRY_ID;
+    tree->firsts = malloc((tree->placement_count + 1) * sizeof *tree->firsts);
+    if (!tree->firsts)
+        return report_out_of_memory(report);
+    if (group->shape_count > INT_MAX || group->placement_count > INT_MAX || !number_surfaces(g, tree))
+        return report_error(report, NULL, "too many surfaces");
+    if (!find_bounds(g, tree) || !collect_surfaces(tree))
+        return report_out_of_memory(report);
+    if (tree->triangle_count > UINT_MAX / 3)
+        return report_error(report, NULL, "too many triangles");
+    if (tree->triangle_count + tree->curved_count + tree->placed_count == 0)
+        return GRAZE_OK;
+    return build_scene(g, tree, threads, report);
+}
+
+graze_status geometry_build(geometry **made, const geometry_group *groups, size_t count, int threads,
                             const graze_report *report) {
     *made = NULL;
     geometry *g = calloc(1, sizeof *g);
-    if (!g)
+    geometry_tree *trees = calloc(count, sizeof *trees);
+    if (!g || !trees) {
+        free(g);
+        free(trees);
         return report_out_of_memory(report);
-    g->shapes = shapes;
-    g->shape_count = count;
+    }
+    g->trees = trees;
+    g->tree_count = count;
+    for (size_t i = 0; i < count; i++) {
+        trees[i].shape_count = groups[i].shape_count;
+        trees[i].placement_count = groups[i].placement_count;
+    }
     graze_status status = GRAZE_OK;
-    if (count > INT_MAX)
-        status = report_error(report, NULL, "too many surfaces");
-    else if (!find_bounds(g, count) || !collect_surfaces(g, count))
-        status = report_out_of_memory(report);
-    else if (g->triangle_count > UINT_MAX / 3)
-        status = report_error(report, NULL, "too many triangles");
-    else if (g->triangle_count + g->curved_count)
-        status = build_scene(g, threads, report);
+    /* What is copied is built before what holds the copies. */
+    for (size_t i = count; i-- > 0 && !status;)
+        status = build_tree(g, &trees[i], &groups[i], threads, report);
     if (status) {
         geometry_destroy(g);
         return status;
     }
+    if (trees[0].scene)
+        g->largest_reach = box_reach((box){trees[0].lower, trees[0].upper});
     *made = g;
     return GRAZE_OK;
+}
+
+static void free_tree(geometry_tree *tree) {
+    if (tree->scene)
+        rtcReleaseScene(tree->scene);
+    free(tree->triangles);
+    free(tree->reach);
+    free(tree->curved);
+    free(tree->placed);
+    free(tree->firsts);
 }
 
 void geometry_destroy(geometry *g) {
     if (!g)
         return;
-    if (g->scene)
-        rtcReleaseScene(g->scene);
+    for (size_t i = 0; i < g->tree_count; i++)
+        free_tree(&g->trees[i]);
     if (g->device)
         rtcReleaseDevice(g->device);
     shaft_tree_free(&g->sights);
-    free(g->triangles);
-    free(g->reach);
-    free(g->curved);
+    shaft_tree_free(&g->copied_sights);
+    free(g->copied_boxes);
+    free(g->trees);
     free(g);
 }

@@ -4,12 +4,34 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/report.h"
 #include "base/vector.h"
 #include "geometry/shape.h"
+#include "rad/transform.h"
 
 typedef struct geometry geometry;
+
+/* A copy of a group. */
+typedef struct geometry_placement {
+    int group; /* index into the groups given to geometry_build */
+    rad_transform transform;
+} geometry_placement;
+
+/* Surfaces, and copies of other groups among them. What all copies have in common is there once.
+ *
+ * Surfaces have numbers. In a group come its own shapes first, in their order, then all surfaces of its first copy, in
+ * their order within that one's group, then those of the second. */
+typedef struct geometry_group {
+    const shape *shapes;
+    size_t shape_count;
+    const geometry_placement *placements;
+    size_t placement_count;
+} geometry_group;
+
+/* Groups in groups in groups: so deep. */
+#define GEOMETRY_DEPTH 32
 
 /* Radiance's "infinitely far" (FHUGE). */
 #define GEOMETRY_FAR 1e10
@@ -18,20 +40,35 @@ typedef struct geometry_ray {
     vec3 origin;
     vec3 direction; /* unit */
     double far;     /* hits beyond are none; GEOMETRY_FAR for no limit */
-    int from;       /* the surface that the ray leaves, or -1: it is not hit again at its origin */
+    int64_t from;   /* the surface that the ray leaves, or -1: it is not hit again at its origin */
 } geometry_ray;
 
 typedef struct geometry_hit {
-    int surface; /* index into the shapes given to geometry_build; -1: nothing hit */
+    int64_t surface; /* its number in the scene; -1: nothing hit */
     double distance;
     vec3 point;  /* on the surface to double precision */
     vec3 normal; /* unit, of the surface's own side (not turned towards the ray) */
 } geometry_hit;
 
-/* Builds from `count` shapes, which must live as long as the geometry. `threads` bounds the build's own. An empty scene
- * is allowed and hits nothing; Embree is then not even started. */
-graze_status geometry_build(geometry **, const shape *shapes, size_t count, int threads, const graze_report *);
+/* Builds from groups; what they point to must live as long as the geometry. The first one is the scene; copies are of
+ * later groups than the one that they stand in, and no more than GEOMETRY_DEPTH deep. `threads` bounds the build's own.
+ * An empty scene is allowed and hits nothing; Embree is then not even started. */
+graze_status geometry_build(geometry **, const geometry_group *groups, size_t count, int threads, const graze_report *);
 void geometry_destroy(geometry *);
+
+/* The copy in a group, by its index, that holds the surface of this number in the group; *number becomes that within
+ * the copy. -1: it is the group's own, and *number the index of its shape. */
+int geometry_descend(const geometry *, int group, int64_t *number);
+
+/* Where a surface comes from: its group and its shape there. */
+typedef struct geometry_origin {
+    int group;
+    const shape *shape;
+    bool copied;             /* else it is the scene's own: */
+    rad_transform transform; /* to the scene */
+} geometry_origin;
+
+geometry_origin geometry_find(const geometry *, int64_t surface);
 
 /* The nearest hit, or false. Safe on any number of threads. A ray that is not finite hits nothing.
  *
@@ -44,7 +81,10 @@ void geometry_destroy(geometry *);
 bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
 /* Whether anything but the surface `target` (-1: none excepted) lies on the ray before `far` and does not coincide with
  * the target there (without one: is not that close to the end); or does and is hit in its place, as one that shines is
- * in place of one that does not. */
-bool geometry_occluded(const geometry *, const geometry_ray *, int target);
+ * in place of one that does not.
+ *
+ * What is in copies is hit where a surface with its corners, centres and radii transformed in double precision would
+ * be: as if the copy's surfaces stood in the scene themselves. */
+bool geometry_occluded(const geometry *, const geometry_ray *, int64_t target);
 
 #endif

@@ -53,30 +53,55 @@ typedef struct geometry_triangle {
 } geometry_triangle;
 _Static_assert(sizeof(geometry_triangle) == 64, "a triangle fills one cache line");
 
-struct geometry {
+/* One group as Embree has it. */
+typedef struct geometry_tree {
     const shape *shapes;
     size_t shape_count;
-    RTCDevice device; /* null in an empty scene */
-    RTCScene scene;
-    vec3 center;
+    const geometry_placement *placements;
+    size_t placement_count;
+    RTCScene scene; /* null where there is nothing */
+    vec3 lower, upper, center;
     double radius;                /* around the center; holds all */
     double scale;                 /* a power of two that makes the radius at most 1 */
     geometry_triangle *triangles; /* by Embree's primitive numbers; aligned to cache lines */
     size_t triangle_count;
-    double *reach;        /* each surface's largest coordinate */
-    double largest_reach; /* of all */
-    int *curved;          /* the surfaces that are no polygons, by Embree's primitive numbers */
+    double *reach; /* each own surface's largest coordinate */
+    int *curved;   /* the surfaces that are no polygons, by Embree's primitive numbers */
     size_t curved_count;
-    shaft_tree sights; /* without nodes unless prepared (geometry/shaft.h) */
+    uint32_t *placed; /* the copies that are not empty, by Embree's primitive numbers */
+    size_t placed_count;
+    int64_t *firsts; /* by copy: the number of its first surface; behind them, how many there are in all */
+    unsigned triangles_id, placed_id; /* Embree's, or RTC_INVALID_GEOMETRY_ID */
+} geometry_tree;
+
+struct geometry {
+    geometry_tree *trees; /* by group: the scene first */
+    size_t tree_count;
+    RTCDevice device;     /* null in an empty scene */
+    double largest_reach; /* of all surfaces' coordinates */
+    /* Without nodes unless prepared (geometry/shaft.h). */
+    shaft_tree sights;        /* over the scene's own shapes */
+    shaft_tree copied_sights; /* over boxes around copies */
+    shape *copied_boxes;      /* each with a polygon's two corners in place of an outline */
 };
 
-/* A corner of the triangle. */
-vec3 geometry_corner(const geometry *, const geometry_triangle *, int corner);
+/* A corner of the triangle, where its group stands. */
+vec3 geometry_corner(const geometry_tree *, const geometry_triangle *, int corner);
+
+/* The box around a copy in the scene. */
+void geometry_copy_bounds(const geometry *, const geometry_placement *, vec3 *lower, vec3 *upper);
+
+/* A surface of a copy, in the scene (shape_placed). */
+shape geometry_placed_shape(const geometry *, int64_t surface);
+double geometry_placed_reach(const geometry *, int64_t surface);
+bool geometry_shines(const geometry *, int64_t surface);
 
 /* The callbacks: exact tests of what Embree comes upon. */
 void geometry_filter_intersect(const struct RTCFilterFunctionNArguments *);
 void geometry_filter_occluded(const struct RTCFilterFunctionNArguments *);
 void geometry_intersect_curved(const struct RTCIntersectFunctionNArguments *);
 void geometry_occluded_curved(const struct RTCOccludedFunctionNArguments *);
+void geometry_intersect_copy(const struct RTCIntersectFunctionNArguments *);
+void geometry_occluded_copy(const struct RTCOccludedFunctionNArguments *);
 
 #endif

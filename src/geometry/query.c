@@ -4,6 +4,7 @@
 
 #include "geometry/crossing.h"
 #include "geometry/geometry_internal.h"
+#include "geometry/placed.h"
 
 /* Embree finds candidates in single precision; which of them the ray meets, and where, is decided here in double
  * precision alone. A triangle is met where the true line passes on the inner side of its three edges, after Woop,
@@ -25,13 +26,18 @@
 /* An origin that is given from outside is as good as its first digits. */
 #define GIVEN_ORIGIN 1e-6
 
+/* Where copies of groups are placed, Embree is sent through each group in that group's own units, along the ray as it
+ * is there: single precision then costs no more than if the group were all of the scene. What Embree comes upon is
+ * brought into the scene and decided there, as for all others: a surface is the same to every ray, and surfaces that
+ * share corners in a group share them in the scene. */
+
 typedef struct candidate {
     double distance;
     vec3 normal;
     double slope; /* cosine between ray and normal */
-    int surface;
+    int64_t surface;
     bool shines;
-    const geometry_triangle *triangle; /* null where the surface is curved */
+    const geometry_triangle *triangle; /* null where the surface is curved, or in a copy of a group */
 } candidate;
 
 /* About where Embree took a triangle to be met that is not. */
@@ -41,29 +47,39 @@ typedef struct miss {
     double reach; /* how far along the ray that may lead: the more oblique, the farther */
 } miss;
 
+/* The group that Embree is in, on its way along the ray. */
+typedef struct visit {
+    const geometry_tree *tree;
+    const rad_transform *transform; /* into the scene; null: it is the scene itself */
+    int64_t first;                  /* the number of its first surface */
+    vec3 center;                    /* of all in it, in the scene */
+    double radius;
+    double unit;  /* the length of Embree's unit, in the scene: a power of two in the scene itself */
+    double start; /* distance along the ray of Embree's origin: where it enters the group, a little before */
+    double end;   /* and where it leaves the group or comes to its own end, a little behind */
+} visit;
+
 typedef struct query {
     embree_context context; /* first, since Embree hands on its address */
     const geometry *geometry;
+    const visit *visit;
     vec3 origin, direction;
     double size;                 /* the origin's largest coordinate */
     double at_once;              /* crossings up to here are at the origin */
     double farthest_coincidence; /* how far apart any surfaces may be found that are meant to coincide */
     double far; /* crossings beyond are none; where `any` is asked, but for what coincides with the target */
-    int from, target;
+    int64_t from, target;
     bool any; /* whether something blocks the ray is all that is asked */
     bool found_any;
-    double start; /* distance along the ray of Embree's origin: where it enters the scene, a little before */
-    double end;   /* and where it leaves the scene or comes to its own end, a little behind */
     candidate nearest, nearest_front, nearest_shining;
-    float limit;        /* Embree's distance beyond which nothing matters */
     const miss *around; /* the miss that is being looked after */
     int miss_count;
     miss misses[MISSES]; /* that many of them have been set, and no more is ever read */
 } query;
 
 /* The bound of single precision's errors, as a length of the scene. */
-static double float_error(const query *q) {
-    return GEOMETRY_FLOAT_ERROR / q->geometry->scale;
+static double float_error(const visit *v) {
+    return GEOMETRY_FLOAT_ERROR * v->unit;
 }
 
 /* How far apart surfaces of such coordinates may be found that are meant to coincide. */
@@ -71,9 +87,26 @@ static double coincidence(const query *q, double coordinates) {
     return geometry_coincidence(coordinates, q->size);
 }
 
+/* A surface's largest coordinate. */
+static double reach(const query *q, int64_t surface) {
+    const geometry_tree *scene = &q->geometry->trees[0];
+    if (surface < (int64_t)scene->shape_count)
+        return scene->reach[surface];
+    return geometry_placed_reach(q->geometry, surface);
+}
+
 /* The larger of two surfaces' coordinates. */
-static double reach_of(const query *q, int a, int b) {
-    return double_max(q->geometry->reach[a], q->geometry->reach[b]);
+static double reach_of(const query *q, int64_t a, int64_t b) {
+    return double_max(reach(q, a), reach(q, b));
+}
+
+/* The normal of a surface at one of its points. */
+static vec3 normal_at(const query *q, int64_t surface, vec3 point) {
+    const geometry_tree *scene = &q->geometry->trees[0];
+    if (surface < (int64_t)scene->shape_count)
+        return shape_normal(&scene->shapes[surface], point);
+    shape placed = geometry_placed_shape(q->geometry, surface);
+    return shape_normal(&placed, point);
 }
 
 /* Whether surfaces that are so far apart, with these coordinates and normals, are meant to coincide. */
@@ -88,14 +121,19 @@ static bool candidates_coincide(const query *q, const candidate *a, const candid
     if (a->surface < 0 || b->surface < 0)
         return false;
     double apart = fabs((a->distance - b->distance) * a->slope);
+    if (apart > q->farthest_coincidence)
+        return false;
     return coincide(q, apart, reach_of(q, a->surface, b->surface), a->normal, b->normal);
 }
 
-/* Embree's own distance at which to stop looking when a surface is met at `t`, under a cosine of `slope`: behind what
- * it takes for the distance of surfaces that coincide with this one. */
-static float embree_limit(const query *q, double t, double slope) {
-    double limit = t + (float_error(q) + q->farthest_coincidence) / fabs(slope);
-    return (float)(((limit < q->end ? limit : q->end) - q->start) * q->geometry->scale);
+/* Embree's own distance in a group, beyond which nothing matters: behind what it takes for the distance of surfaces
+ * that coincide with the nearest one. */
+static float embree_limit(const query *q, const visit *v) {
+    double limit = v->end;
+    if (q->nearest.surface >= 0)
+        limit = double_min(limit,
+                           q->nearest.distance + (float_error(v) + q->farthest_coincidence) / fabs(q->nearest.slope));
+    return (float)((limit - v->start) / v->unit);
 }
 
 static bool is_before(const candidate *a, const candidate *b) {
@@ -112,22 +150,20 @@ static bool outshines(const query *q, const candidate *a, const candidate *b) {
 static bool is_at_target(const query *q, const candidate *c) {
     double apart = fabs((q->far - c->distance) * c->slope);
     if (q->target < 0)
-        return apart <= coincidence(q, q->geometry->reach[c->surface]);
+        return apart <= coincidence(q, reach(q, c->surface));
     vec3 end = vec3_add_scaled(q->origin, q->far, q->direction);
-    vec3 normal = shape_normal(&q->geometry->shapes[q->target], end);
-    return coincide(q, apart, reach_of(q, c->surface, q->target), c->normal, normal);
+    return coincide(q, apart, reach_of(q, c->surface, q->target), c->normal, normal_at(q, q->target, end));
 }
 
 /* Whether a crossing keeps the ray from its end. What coincides with the target does not, unless it is what
  * geometry_intersect would find there. */
 static bool blocks(const query *q, const candidate *c) {
-    const geometry *g = q->geometry;
     double ahead = q->far - c->distance;
     if (fabs(ahead * c->slope) > q->farthest_coincidence || !is_at_target(q, c))
         return ahead >= 0;
     if (q->target < 0 || !c->shines || c->slope >= 0)
         return false;
-    return !g->shapes[q->target].shines || c->surface > q->target;
+    return !geometry_shines(q->geometry, q->target) || c->surface > q->target;
 }
 
 /* Takes a crossing into account; true where that shortens the search. */
@@ -144,26 +180,23 @@ static bool offer(query *q, candidate c) {
     if (!is_before(&c, &q->nearest))
         return false;
     q->nearest = c;
-    q->limit = embree_limit(q, c.distance, c.slope);
     return true;
 }
 
 /* Whether a crossing is at the ray's origin: of a surface that the origin lies on, or one that coincides with the
  * surface that the ray leaves. Others that meet that one at an angle are hit however close they are. */
 static bool is_at_origin(const query *q, const candidate *c) {
-    const geometry *g = q->geometry;
     if (c->distance <= q->at_once)
         return true;
     double height = fabs(c->distance * c->slope);
     /* Twice as far as from the surface left, which itself may be the other one of two that coincide. */
     if (height > 2 * q->farthest_coincidence)
         return false;
-    if (height <= GEOMETRY_ON_SURFACE * (q->size + g->reach[c->surface]))
+    if (height <= GEOMETRY_ON_SURFACE * (q->size + reach(q, c->surface)))
         return true;
     if (q->from < 0)
         return false;
-    vec3 left = shape_normal(&g->shapes[q->from], q->origin);
-    return coincide(q, height / 2, reach_of(q, c->surface, q->from), c->normal, left);
+    return coincide(q, height / 2, reach_of(q, c->surface, q->from), c->normal, normal_at(q, q->from, q->origin));
 }
 
 static bool in_reach(const query *q, const candidate *c) {
@@ -197,10 +230,21 @@ typedef struct view2 {
     point2 a, b, c;
 } view2;
 
+/* A point of the group that Embree is in, in the scene. */
+static vec3 in_scene(const query *q, vec3 point) {
+    return q->visit->transform ? rad_transform_point(q->visit->transform, point) : point;
+}
+
+static vec3 normal_in_scene(const query *q, vec3 normal) {
+    return q->visit->transform ? placed_normal(q->visit->transform, normal) : normal;
+}
+
+static point2 project_corner(const query *q, const geometry_triangle *triangle, int corner) {
+    return project(q, in_scene(q, geometry_corner(q->visit->tree, triangle, corner)));
+}
+
 static view2 project_triangle(const query *q, const geometry_triangle *triangle) {
-    return (view2){project(q, geometry_corner(q->geometry, triangle, 0)),
-                   project(q, geometry_corner(q->geometry, triangle, 1)),
-                   project(q, geometry_corner(q->geometry, triangle, 2))};
+    return (view2){project_corner(q, triangle, 0), project_corner(q, triangle, 1), project_corner(q, triangle, 2)};
 }
 
 static bool is_met(const view2 *v) {
@@ -235,15 +279,21 @@ static bool is_certain(const geometry_triangle *triangle, double slope, const st
 }
 
 /* Offers a triangle that the line meets. */
-static bool offer_met(query *q, const geometry_triangle *triangle, double slope) {
-    double distance = vec3_dot(triangle->normal, vec3_subtract(triangle->center, q->origin)) / slope;
-    candidate c = {distance, triangle->normal, slope, triangle->surface, triangle->shines, triangle};
+static bool offer_met(query *q, const geometry_triangle *triangle, vec3 normal, double slope) {
+    vec3 center = in_scene(q, triangle->center);
+    double distance = vec3_dot(normal, vec3_subtract(center, q->origin)) / slope;
+    candidate c = {.distance = distance,
+                   .normal = normal,
+                   .slope = slope,
+                   .surface = q->visit->first + triangle->surface,
+                   .shines = triangle->shines,
+                   .triangle = q->visit->transform ? NULL : triangle};
     return in_reach(q, &c) && offer(q, c);
 }
 
 /* How far from the true ray Embree may be wrong about a triangle at that distance. */
 static double single_error(const query *q, const geometry_triangle *triangle, double distance) {
-    return triangle->error / q->geometry->scale + GEOMETRY_UNIT_ERROR * (distance - q->start);
+    return triangle->error * q->visit->unit + GEOMETRY_UNIT_ERROR * (distance - q->visit->start);
 }
 
 static void note_miss(query *q, const geometry_triangle *triangle, double distance, double slope) {
@@ -259,43 +309,47 @@ static void note_miss(query *q, const geometry_triangle *triangle, double distan
 }
 
 static bool is_excepted(const query *q, const geometry_triangle *triangle) {
-    return triangle->surface == q->from || triangle->surface == q->target;
+    int64_t surface = q->visit->first + triangle->surface;
+    return surface == q->from || surface == q->target;
 }
 
 static bool offer_triangle(query *q, const struct RTCRay *ray, const struct RTCHit *hit) {
-    const geometry_triangle *triangle = &q->geometry->triangles[hit->primID];
+    const geometry_triangle *triangle = &q->visit->tree->triangles[hit->primID];
     if (is_excepted(q, triangle))
         return false;
-    double slope = vec3_dot(triangle->normal, q->direction);
+    vec3 normal = normal_in_scene(q, triangle->normal);
+    double slope = vec3_dot(normal, q->direction);
     if (is_certain(triangle, slope, hit) || line_meets_triangle(q, triangle))
-        return offer_met(q, triangle, slope);
-    note_miss(q, triangle, q->start + ray->tfar / q->geometry->scale, slope);
+        return offer_met(q, triangle, normal, slope);
+    note_miss(q, triangle, q->visit->start + ray->tfar * q->visit->unit, slope);
     return false;
 }
 
 /* Offers a triangle near a miss. One that the ray passes far off has nothing to do with it. */
-static bool offer_neighbour(struct RTCPointQueryFunctionArguments *args) {
-    query *q = args->userPtr;
-    /* Triangles are attached first. */
-    if (args->geomID != 0 || !q->geometry->triangle_count)
-        return false;
-    const geometry_triangle *triangle = &q->geometry->triangles[args->primID];
+static void offer_neighbour(query *q, unsigned primitive) {
+    const geometry_triangle *triangle = &q->visit->tree->triangles[primitive];
     if (is_excepted(q, triangle))
-        return false;
-    double slope = vec3_dot(triangle->normal, q->direction);
+        return;
+    vec3 normal = normal_in_scene(q, triangle->normal);
+    double slope = vec3_dot(normal, q->direction);
     view2 v = project_triangle(q, triangle);
     if (is_met(&v))
-        offer_met(q, triangle, slope);
+        offer_met(q, triangle, normal, slope);
     else if (passing_distance(&v) <= 2 * single_error(q, triangle, q->around->distance))
         note_miss(q, triangle, q->around->distance, slope);
-    return false;
 }
 
 static bool offer_curved(query *q, unsigned primitive) {
-    int surface = q->geometry->curved[primitive];
+    const visit *v = q->visit;
+    int64_t surface = v->first + v->tree->curved[primitive];
     if (surface == q->target)
         return false;
-    const shape *s = &q->geometry->shapes[surface];
+    const shape *s = &v->tree->shapes[v->tree->curved[primitive]];
+    shape placed;
+    if (v->transform) {
+        placed = shape_placed(s, v->transform);
+        s = &placed;
+    }
     shape_crossings crossings = shape_cross(s, q->origin, q->direction, surface == q->from);
     for (int i = 0; i < crossings.count; i++) {
         double distance = crossings.distance[i];
@@ -303,7 +357,7 @@ static bool offer_curved(query *q, unsigned primitive) {
             continue;
         vec3 normal = shape_normal(s, vec3_add_scaled(q->origin, distance, q->direction));
         double slope = vec3_dot(normal, q->direction);
-        candidate c = {distance, normal, slope, surface, s->shines, NULL};
+        candidate c = {.distance = distance, .normal = normal, .slope = slope, .surface = surface, .shines = s->shines};
         if (in_reach(q, &c))
             return offer(q, c);
     }
@@ -314,7 +368,7 @@ void geometry_filter_intersect(const struct RTCFilterFunctionNArguments *args) {
     query *q = (query *)args->context;
     struct RTCRay *ray = embree_ray(args->ray);
     if (offer_triangle(q, ray, embree_hit(args->hit)))
-        ray->tfar = q->limit;
+        ray->tfar = embree_limit(q, q->visit);
     else
         args->valid[0] = 0;
 }
@@ -329,7 +383,7 @@ void geometry_intersect_curved(const struct RTCIntersectFunctionNArguments *args
     query *q = (query *)args->context;
     struct RTCRay *ray = embree_ray(args->rayhit);
     if (args->valid[0] && offer_curved(q, args->primID))
-        ray->tfar = fminf(ray->tfar, q->limit);
+        ray->tfar = fminf(ray->tfar, embree_limit(q, q->visit));
 }
 
 void geometry_occluded_curved(const struct RTCOccludedFunctionNArguments *args) {
@@ -338,59 +392,136 @@ void geometry_occluded_curved(const struct RTCOccludedFunctionNArguments *args) 
         embree_ray(args->ray)->tfar = -INFINITY;
 }
 
-/* The place at a distance along the ray, in Embree's units. */
+/* The place at a distance along the ray, in Embree's units of the group that is visited. */
 static vec3 embree_place(const query *q, double distance) {
-    const geometry *g = q->geometry;
-    return vec3_scale(g->scale, vec3_add_scaled(vec3_subtract(q->origin, g->center), distance, q->direction));
+    const visit *v = q->visit;
+    const geometry_tree *tree = v->tree;
+    if (!v->transform) /* the difference first: it may be exact */
+        return vec3_scale(tree->scale, vec3_add_scaled(vec3_subtract(q->origin, tree->center), distance, q->direction));
+    vec3 point = placed_inverse_point(v->transform, vec3_add_scaled(q->origin, distance, q->direction));
+    return vec3_scale(tree->scale, vec3_subtract(point, tree->center));
 }
 
-/* Sends Embree along the ray. */
+/* Sends Embree along the ray, through the group that is visited. */
 static void cast(query *q) {
-    vec3 o = embree_place(q, q->start);
+    const visit *v = q->visit;
+    vec3 o = embree_place(q, v->start), d = q->direction;
+    if (v->transform)
+        d = placed_inverse_direction(v->transform, d);
     struct RTCRayHit ray = {.ray = {.org_x = (float)o.x,
                                     .org_y = (float)o.y,
                                     .org_z = (float)o.z,
-                                    .dir_x = (float)q->direction.x,
-                                    .dir_y = (float)q->direction.y,
-                                    .dir_z = (float)q->direction.z,
-                                    .tfar = q->limit,
+                                    .dir_x = (float)d.x,
+                                    .dir_y = (float)d.y,
+                                    .dir_z = (float)d.z,
+                                    .tfar = embree_limit(q, v),
                                     .mask = UINT32_MAX},
                             .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
     if (q->any)
-        embree_occluded(q->geometry->scene, &q->context, &ray.ray);
+        embree_occluded(v->tree->scene, &q->context, &ray.ray);
     else
-        embree_intersect(q->geometry->scene, &q->context, &ray);
+        embree_intersect(v->tree->scene, &q->context, &ray);
 }
 
-/* Tests all triangles about a miss. */
+/* The part of the ray that lies in the ball about all that is visited; false where there is none. */
+static bool clip(const query *q, visit *v) {
+    vec3 to_center = vec3_subtract(v->center, q->origin);
+    double middle = vec3_dot(to_center, q->direction);
+    vec3 past = vec3_add_scaled(to_center, -middle, q->direction);
+    double radius = v->radius + 1e-14 * (fabs(to_center.x) + fabs(to_center.y) + fabs(to_center.z));
+    if (vec3_dot(past, past) > radius * radius || middle + radius < 0)
+        return false;
+    v->start = middle > radius ? middle - radius : 0;
+    v->end = q->far < middle + radius ? q->far : middle + radius;
+    /* Surfaces close to the ends must not get beyond them, oblique ones neither. */
+    v->start -= ENDS * float_error(v);
+    v->end += ENDS * float_error(v);
+    return v->start <= v->end;
+}
+
+/* ---- Copies of groups ---- */
+
+/* A visit to a copy that is placed in the group visited. Their transforms together go to *both if it is needed. */
+static visit visit_of_copy(const query *q, unsigned primitive, rad_transform *both) {
+    const visit *outer = q->visit;
+    const geometry_tree *tree = outer->tree;
+    size_t index = tree->placed[primitive];
+    const geometry_placement *placement = &tree->placements[index];
+    visit v = {.tree = &q->geometry->trees[placement->group],
+               .transform = &placement->transform,
+               .first = outer->first + tree->firsts[index]};
+    if (outer->transform) {
+        *both = rad_transform_then(&placement->transform, outer->transform);
+        v.transform = both;
+    }
+    v.center = rad_transform_point(v.transform, v.tree->center);
+    v.radius = v.tree->radius * v.transform->scale * (1 + 1e-9) + 1e-14 * vec3_max_abs(v.center);
+    v.unit = v.transform->scale / v.tree->scale;
+    return v;
+}
+
+/* Follows the ray through a copy. */
+static void cast_through_copy(query *q, unsigned primitive) {
+    const visit *outer = q->visit;
+    rad_transform both;
+    visit v = visit_of_copy(q, primitive, &both);
+    if (!clip(q, &v))
+        return;
+    q->visit = &v;
+    cast(q);
+    q->visit = outer;
+}
+
+void geometry_intersect_copy(const struct RTCIntersectFunctionNArguments *args) {
+    query *q = (query *)args->context;
+    struct RTCRay *ray = embree_ray(args->rayhit);
+    if (!args->valid[0])
+        return;
+    cast_through_copy(q, args->primID);
+    ray->tfar = fminf(ray->tfar, embree_limit(q, q->visit));
+}
+
+void geometry_occluded_copy(const struct RTCOccludedFunctionNArguments *args) {
+    query *q = (query *)args->context;
+    if (!args->valid[0] || q->found_any)
+        return;
+    cast_through_copy(q, args->primID);
+    if (q->found_any)
+        embree_ray(args->ray)->tfar = -INFINITY;
+}
+
+/* ---- Misses ---- */
+
+static void look_around(query *q);
+
+static bool look_at_neighbour(struct RTCPointQueryFunctionArguments *args) {
+    query *q = args->userPtr;
+    const visit *outer = q->visit;
+    if (args->geomID == outer->tree->triangles_id) {
+        offer_neighbour(q, args->primID);
+    } else if (args->geomID == outer->tree->placed_id) {
+        rad_transform both;
+        visit v = visit_of_copy(q, args->primID, &both);
+        if (clip(q, &v)) {
+            q->visit = &v;
+            look_around(q);
+            q->visit = outer;
+        }
+    }
+    return false;
+}
+
+/* Tests all triangles about a miss, in the group that is visited. */
 static void look_around(query *q) {
-    const geometry *g = q->geometry;
+    const visit *v = q->visit;
     vec3 center = embree_place(q, q->around->distance);
     struct RTCPointQuery around = {.x = (float)center.x,
                                    .y = (float)center.y,
                                    .z = (float)center.z,
-                                   .radius = (float)fmin(2 * q->around->reach * g->scale, 4)};
+                                   .radius = (float)fmin(2 * q->around->reach / v->unit, 4)};
     struct RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(g->scene, &around, &context, offer_neighbour, q);
-}
-
-/* The part of the ray that lies in the scene's ball; false where there is none. */
-static bool clip(query *q) {
-    const geometry *g = q->geometry;
-    vec3 to_center = vec3_subtract(g->center, q->origin);
-    double middle = vec3_dot(to_center, q->direction);
-    vec3 past = vec3_add_scaled(to_center, -middle, q->direction);
-    double radius = g->radius + 1e-14 * (fabs(to_center.x) + fabs(to_center.y) + fabs(to_center.z));
-    if (vec3_dot(past, past) > radius * radius || middle + radius < 0)
-        return false;
-    q->start = middle > radius ? middle - radius : 0;
-    q->end = q->far < middle + radius ? q->far : middle + radius;
-    /* Surfaces close to the ends must not get beyond them, oblique ones neither. */
-    q->start -= ENDS * float_error(q);
-    q->end += ENDS * float_error(q);
-    q->limit = (float)((q->end - q->start) * g->scale);
-    return q->start <= q->end;
+    rtcPointQuery(v->tree->scene, &around, &context, look_at_neighbour, q);
 }
 
 /* Follows the ray. Where Embree took it through a triangle that it passes by, single precision has been too coarse to
@@ -443,14 +574,42 @@ static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
     q->miss_count = 0;
 }
 
+/* The scene itself, as all visits begin. */
+static visit visit_of_scene(const geometry *g) {
+    const geometry_tree *tree = &g->trees[0];
+    return (visit){.tree = tree, .center = tree->center, .radius = tree->radius, .unit = 1 / tree->scale};
+}
+
+static void describe_hit(const geometry *g, const candidate *found, geometry_hit *hit) {
+    const geometry_triangle *triangle = found->triangle;
+    const geometry_tree *scene = &g->trees[0];
+    if (triangle) {
+        /* shape_pull() without another look into memory */
+        double height = vec3_dot(triangle->normal, vec3_subtract(hit->point, triangle->center));
+        hit->point = vec3_add_scaled(hit->point, -height, triangle->normal);
+        hit->normal = triangle->normal;
+        return;
+    }
+    const shape *s = &scene->shapes[found->surface];
+    shape placed;
+    if (found->surface >= (int64_t)scene->shape_count) {
+        placed = geometry_placed_shape(g, found->surface);
+        s = &placed;
+    }
+    hit->point = shape_pull(s, hit->point);
+    hit->normal = shape_normal(s, hit->point);
+}
+
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
     hit->surface = -1;
-    if (!g->scene || !is_ray(ray))
+    if (!g->trees[0].scene || !is_ray(ray))
         return false;
     query q;
     prepare(&q, g, ray);
-    if (!clip(&q))
+    visit scene = visit_of_scene(g);
+    if (!clip(&q, &scene))
         return false;
+    q.visit = &scene;
     trace(&q);
     const candidate *found = visible(&q);
     if (found->surface < 0)
@@ -458,28 +617,21 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
     hit->surface = found->surface;
     hit->distance = found->distance;
     hit->point = vec3_add_scaled(ray->origin, found->distance, ray->direction);
-    const geometry_triangle *triangle = found->triangle;
-    if (triangle) {
-        /* shape_pull() without another look into memory */
-        double height = vec3_dot(triangle->normal, vec3_subtract(hit->point, triangle->center));
-        hit->point = vec3_add_scaled(hit->point, -height, triangle->normal);
-        hit->normal = triangle->normal;
-    } else {
-        hit->point = shape_pull(&g->shapes[found->surface], hit->point);
-        hit->normal = shape_normal(&g->shapes[found->surface], hit->point);
-    }
+    describe_hit(g, found, hit);
     return true;
 }
 
-bool geometry_occluded(const geometry *g, const geometry_ray *ray, int target) {
-    if (!g->scene || !is_ray(ray))
+bool geometry_occluded(const geometry *g, const geometry_ray *ray, int64_t target) {
+    if (!g->trees[0].scene || !is_ray(ray))
         return false;
     query q;
     prepare(&q, g, ray);
     q.target = target;
     q.any = true;
-    if (!clip(&q))
+    visit scene = visit_of_scene(g);
+    if (!clip(&q, &scene))
         return false;
+    q.visit = &scene;
     trace(&q);
     return q.found_any;
 }

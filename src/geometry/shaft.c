@@ -1,6 +1,8 @@
 /* What stands between a point and a light: the way through the hierarchy. */
 #include "geometry/shaft.h"
 
+#include <stdlib.h>
+
 #include "geometry/geometry_internal.h"
 #include "geometry/shaft_internal.h"
 
@@ -9,13 +11,41 @@
 #define TESTS       120
 #define TESTS_MIXED 20
 
+/* A box as the hierarchy takes it. */
+static void set_box(shape *box, vec3 corners[2]) {
+    vec3 size = vec3_subtract(corners[1], corners[0]);
+    *box = (shape){.kind = SHAPE_POLYGON};
+    box->polygon.vertices = corners;
+    box->polygon.vertex_count = 2;
+    box->polygon.center = vec3_add_scaled(corners[0], 0.5, size);
+    box->polygon.area = size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
+/* A hierarchy over the boxes of copies. */
+static bool build_copied(geometry *g, vec3 lower, vec3 upper) {
+    const geometry_tree *scene = &g->trees[0];
+    size_t count = scene->placed_count;
+    g->copied_boxes = malloc(count * (sizeof(shape) + 2 * sizeof(vec3)));
+    if (!g->copied_boxes)
+        return false;
+    vec3 *corners = (vec3 *)(g->copied_boxes + count);
+    for (size_t i = 0; i < count; i++, corners += 2) {
+        geometry_copy_bounds(g, &scene->placements[scene->placed[i]], &corners[0], &corners[1]);
+        set_box(&g->copied_boxes[i], corners);
+    }
+    return shaft_tree_build(&g->copied_sights, g->copied_boxes, count, lower, upper);
+}
+
 graze_status geometry_prepare_sights(geometry *g, const graze_report *report) {
-    size_t count = g->triangle_count + g->curved_count ? g->shape_count : 0;
-    vec3 reach = {g->radius, g->radius, g->radius};
-    if (count == 0 || g->sights.nodes)
+    const geometry_tree *scene = &g->trees[0];
+    vec3 reach = {scene->radius, scene->radius, scene->radius};
+    vec3 lower = vec3_subtract(scene->center, reach), upper = vec3_add(scene->center, reach);
+    if (!scene->scene || g->sights.nodes || g->copied_sights.nodes)
         return GRAZE_OK;
     bool built =
-        shaft_tree_build(&g->sights, g->shapes, count, vec3_subtract(g->center, reach), vec3_add(g->center, reach));
+        scene->shape_count == 0 || shaft_tree_build(&g->sights, scene->shapes, scene->shape_count, lower, upper);
+    if (built && scene->placed_count > 0)
+        built = build_copied(g, lower, upper);
     return built ? GRAZE_OK : report_out_of_memory(report);
 }
 
@@ -61,15 +91,28 @@ static place_of_box find_box(const shaft *s, const shaft_node *n, double *depth)
 }
 
 /* The first of a leaf's shapes that is in the way tells for all: where there are several, they are small. */
-static geometry_visibility meet_leaf(shaft *s, const geometry *g, const shaft_node *leaf, int *budget) {
+static geometry_visibility meet_shapes(shaft *s, const geometry *g, const shaft_node *leaf, int *budget) {
     geometry_visibility found = GEOMETRY_CLEAR;
     for (uint32_t i = 0; i < leaf->count && found == GEOMETRY_CLEAR; i++)
         found = *budget > 0 ? shaft_meets_shape(s, g, g->sights.order[leaf->first + i], budget) : GEOMETRY_MIXED;
     return found;
 }
 
+/* Of what is in a copy nothing is known but the box around it. */
+static geometry_visibility meet_copies(shaft *s, const geometry *g, const shaft_node *leaf, int *budget) {
+    for (uint32_t i = 0; i < leaf->count; i++, --*budget) {
+        const vec3 *corners = g->copied_boxes[g->copied_sights.order[leaf->first + i]].polygon.vertices;
+        shaft_node around = {.lower = corners[0], .upper = corners[1]};
+        double depth = 0;
+        if (!box_is_beside(s, &around) && find_box(s, &around, &depth) != OUTSIDE)
+            return GEOMETRY_MIXED;
+    }
+    return GEOMETRY_CLEAR;
+}
+
 /* What is still to be looked at. */
 typedef struct visit {
+    const shaft_tree *tree;
     uint32_t node[SHAFT_TREE_DEPTH + 1];
     int count, budget;
     bool mixed; /* something is in the way */
@@ -82,8 +125,8 @@ static void meet_something(visit *v) {
 
 /* Looks at a node's box, and puts it down as to be entered unless that tells all. Returns how far its middle is within
  * the shaft. */
-static double put_down(visit *v, const shaft *s, const geometry *g, uint32_t index) {
-    const shaft_node *n = &g->sights.nodes[index];
+static double put_down(visit *v, const shaft *s, uint32_t index) {
+    const shaft_node *n = &v->tree->nodes[index];
     double depth = INFINITY;
     if (box_is_beside(s, n))
         return depth;
@@ -97,33 +140,31 @@ static double put_down(visit *v, const shaft *s, const geometry *g, uint32_t ind
 }
 
 /* Of two children, what stands alone comes first, then what is deeper within the shaft: more often in the way. */
-static void put_children(visit *v, const shaft *s, const geometry *g, uint32_t first) {
+static void put_children(visit *v, const shaft *s, uint32_t first) {
     int before = v->count;
-    double a = put_down(v, s, g, first), b = put_down(v, s, g, first + 1);
+    double a = put_down(v, s, first), b = put_down(v, s, first + 1);
     if (v->count == before + 2 && a > b) {
         v->node[before] = first + 1;
         v->node[before + 1] = first;
     }
 }
 
-geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *sight) {
-    shaft s;
-    if (!g->sights.nodes)
-        return GEOMETRY_MIXED;
-    shaft_kind kind = shaft_make(&s, g, sight);
-    if (kind != SHAFT_MADE)
-        return kind == SHAFT_NOTHING ? GEOMETRY_CLEAR : GEOMETRY_MIXED;
-    visit v = {.budget = TESTS};
-    (void)put_down(&v, &s, g, 0);
+/* What the shapes of one of the hierarchies do to the shaft. */
+static geometry_visibility look_through(shaft *s, const geometry *g, const shaft_tree *tree) {
+    visit v = {.tree = tree, .budget = TESTS};
+    if (!tree->nodes)
+        return GEOMETRY_CLEAR;
+    (void)put_down(&v, s, 0);
     while (v.count > 0) {
-        const shaft_node *n = &g->sights.nodes[v.node[--v.count]];
+        const shaft_node *n = &tree->nodes[v.node[--v.count]];
         if (v.budget < 0 || (v.mixed && n->count > 1))
             return GEOMETRY_MIXED;
         if (n->count == 0) {
-            put_children(&v, &s, g, n->first);
+            put_children(&v, s, n->first);
             continue;
         }
-        geometry_visibility found = meet_leaf(&s, g, n, &v.budget);
+        bool copies = tree == &g->copied_sights;
+        geometry_visibility found = copies ? meet_copies(s, g, n, &v.budget) : meet_shapes(s, g, n, &v.budget);
         if (found == GEOMETRY_BLOCKED)
             return found;
         if (found == GEOMETRY_MIXED)
@@ -132,20 +173,39 @@ geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *s
     return v.mixed ? GEOMETRY_MIXED : GEOMETRY_CLEAR;
 }
 
-/* A surface that the point is on and which curves away below its horizon does not stand above it. */
-static bool shape_is_above(const geometry *g, int surface, vec3 point, vec3 normal, int from) {
-    const shape *s = &g->shapes[surface];
-    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    return !s->shines && !(surface == from && flat) &&
-           shaft_reach_of(s, point, normal) > shaft_tolerance(vec3_max_abs(point), g->reach[surface]);
+geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *sight) {
+    shaft s;
+    if (!g->sights.nodes && !g->copied_sights.nodes)
+        return GEOMETRY_MIXED;
+    shaft_kind kind = shaft_make(&s, g, sight);
+    if (kind != SHAFT_MADE)
+        return kind == SHAFT_NOTHING ? GEOMETRY_CLEAR : GEOMETRY_MIXED;
+    geometry_visibility own = look_through(&s, g, &g->sights);
+    return own == GEOMETRY_CLEAR ? look_through(&s, g, &g->copied_sights) : own;
 }
 
-bool geometry_reflects_above(const geometry *g, vec3 point, vec3 normal, int from) {
-    const shaft_node *nodes = g->sights.nodes;
+/* A surface that the point is on and which curves away below its horizon does not stand above it. */
+static bool shape_is_above(const geometry *g, int surface, vec3 point, vec3 normal, int64_t from) {
+    const shape *s = &g->trees[0].shapes[surface];
+    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
+    return !s->shines && !(surface == from && flat) &&
+           shaft_reach_of(s, point, normal) > shaft_tolerance(vec3_max_abs(point), g->trees[0].reach[surface]);
+}
+
+static bool leaf_is_above(const geometry *g, const shaft_tree *tree, const shaft_node *leaf, vec3 point, vec3 normal,
+                          int64_t from) {
+    if (tree == &g->copied_sights)
+        return leaf->count > 0;
+    for (uint32_t i = 0; i < leaf->count; i++)
+        if (shape_is_above(g, tree->order[leaf->first + i], point, normal, from))
+            return true;
+    return false;
+}
+
+static bool reflects_above(const geometry *g, const shaft_tree *tree, vec3 point, vec3 normal, int64_t from) {
+    const shaft_node *nodes = tree->nodes;
     uint32_t stack[SHAFT_TREE_DEPTH + 1] = {0};
-    int height = 1;
-    if (!nodes)
-        return g->shape_count > 0;
+    int height = nodes ? 1 : 0;
     for (int budget = TESTS; height > 0; budget--) {
         const shaft_node *n = &nodes[stack[--height]];
         if (!n->reflects)
@@ -159,9 +219,15 @@ bool geometry_reflects_above(const geometry *g, vec3 point, vec3 normal, int fro
             stack[height++] = n->first;
             stack[height++] = n->first + 1;
         }
-        for (uint32_t i = 0; i < n->count; i++)
-            if (shape_is_above(g, g->sights.order[n->first + i], point, normal, from))
-                return true;
+        if (leaf_is_above(g, tree, n, point, normal, from))
+            return true;
     }
     return false;
+}
+
+bool geometry_reflects_above(const geometry *g, vec3 point, vec3 normal, int64_t from) {
+    if (!g->sights.nodes && !g->copied_sights.nodes)
+        return g->trees[0].scene != NULL;
+    return reflects_above(g, &g->sights, point, normal, from) ||
+           reflects_above(g, &g->copied_sights, point, normal, from);
 }

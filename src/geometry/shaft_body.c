@@ -111,7 +111,7 @@ static void find_slack(const shaft *s, const geometry *g, face *f) {
     for (int i = 0; i < f->count; i++)
         uneven = shaft_greater(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
     /* Candidates for a ray come from corners and in single precision, distances from the plane: both must keep off. */
-    f->slack = uneven <= s->tolerance ? 0 : 256 * GEOMETRY_FLOAT_ERROR / g->scale + 2 * uneven;
+    f->slack = uneven <= s->tolerance ? 0 : 256 * GEOMETRY_FLOAT_ERROR / g->trees[0].scale + 2 * uneven;
 }
 
 static geometry_visibility meet_face(const shaft *s, const geometry *g, face *f) {
@@ -141,7 +141,7 @@ static geometry_visibility meet_triangles(const shaft *s, const geometry *g, con
 }
 
 static geometry_visibility meet_polygon(const shaft *s, const geometry *g, int surface, int *budget) {
-    const shape *polygon = &g->shapes[surface];
+    const shape *polygon = &g->trees[0].shapes[surface];
     face f = {.normal = polygon->polygon.normal};
     f.height = vec3_dot(f.normal, vec3_subtract(s->sight->point, polygon->polygon.center));
     f.rival = f.height > 0 && is_rival(s, polygon, surface);
@@ -245,11 +245,11 @@ static geometry_visibility meet_ring(const shaft *s, const shape *ring, int surf
 }
 
 geometry_visibility shaft_meets_shape(shaft *s, const geometry *g, int surface, int *budget) {
-    const shape *body = &g->shapes[surface];
+    const shape *body = &g->trees[0].shapes[surface];
     bool left = surface == s->sight->from;
-    double light = s->sight->light < 0 ? 0 : g->reach[s->sight->light];
+    double light = s->sight->light < 0 ? 0 : g->trees[0].reach[s->sight->light];
     *budget -= TEST_WORTH;
-    s->tolerance = shaft_tolerance(vec3_max_abs(s->sight->point), double_max(light, g->reach[surface]));
+    s->tolerance = shaft_tolerance(vec3_max_abs(s->sight->point), double_max(light, g->trees[0].reach[surface]));
     if (surface == s->sight->light || (left && (body->kind == SHAPE_POLYGON || body->kind == SHAPE_RING)))
         return GEOMETRY_CLEAR;
     switch (body->kind) {

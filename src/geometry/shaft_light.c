@@ -160,7 +160,7 @@ static shaft_kind source_shaft(shaft *s) {
 static shaft_kind light_shaft(shaft *s, const geometry *g) {
     if (s->sight->light < 0)
         return source_shaft(s);
-    const shape *light = &g->shapes[s->sight->light];
+    const shape *light = &g->trees[0].shapes[s->sight->light];
     switch (light->kind) {
     case SHAPE_POLYGON:
         return polygon_shaft(s, light);
@@ -177,7 +177,7 @@ static shaft_kind light_shaft(shaft *s, const geometry *g) {
 shaft_kind shaft_make(shaft *s, const geometry *g, const geometry_sight *sight) {
     s->sight = sight;
     double size = vec3_max_abs(sight->point);
-    s->tolerance = shaft_tolerance(size, sight->light < 0 ? 0 : g->reach[sight->light]);
+    s->tolerance = shaft_tolerance(size, sight->light < 0 ? 0 : g->trees[0].reach[sight->light]);
     s->near = geometry_coincidence(g->largest_reach, size);
     /* Rays that leave no surface do not hit what is that close. */
     if (sight->from < 0)

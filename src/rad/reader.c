@@ -12,6 +12,7 @@
 #include "base/number.h"
 #include "base/whole_file.h"
 #include "rad/command.h"
+#include "rad/octree.h"
 #include "rad/words.h"
 #include "rad/xform.h"
 
@@ -311,8 +312,8 @@ static graze_status check_reals(rad_reader *reader, rad_raw *raw, const rad_type
                                (unsigned)raw->real_count, wanted);
 }
 
-static graze_status check_counts(rad_reader *reader, rad_raw *raw) {
-    if (raw->broken)
+graze_status rad_reader_check(rad_reader *reader, rad_raw *raw) {
+    if (raw->broken || raw->type == RAD_ALIAS)
         return GRAZE_OK;
     const rad_type_facts *facts = rad_type_look_up((rad_type)raw->type);
     graze_status status = check_strings(reader, raw, facts);
@@ -330,7 +331,7 @@ static graze_status read_arguments(source *s, rad_raw *raw) {
         status = read_integers(s, raw);
     if (!status)
         status = read_reals(s, raw);
-    return status ? status : check_counts(s->reader, raw);
+    return status ? status : rad_reader_check(s->reader, raw);
 }
 
 static graze_status read_primitive(source *s, int line, int column) {
@@ -367,23 +368,16 @@ static graze_status read_command(source *s, int line, int column) {
 
 /* ---- Whole inputs ---- */
 
-/* Scripts that run oconv first hand its result to the renderer. */
-static bool is_octree(const whole_file *text) {
-    static const char first[] = "#?RADIANCE\n", format[] = "\nFORMAT=Radiance_octree";
-    if (strncmp(text->bytes, first, sizeof first - 1) != 0)
-        return false;
-    const char *end = strstr(text->bytes, "\n\n"), *found = strstr(text->bytes, format);
-    return found && end && found < end;
-}
-
 static graze_status read_text(rad_reader *reader, const whole_file *text, const char *name, const rad_context *context,
                               const rad_sink *sink) {
     source s = {.reader = reader, .name = name, .context = context, .sink = sink};
     place here = place_at(&s, 0, 0);
     if (context->depth > DEPTH_MOST)
         return report_error(reader->report, &here, "files and commands are nested more than %d deep", DEPTH_MOST);
-    if (is_octree(text))
-        return report_error(reader->report, &here, "an octree is not read yet: give the scene files that oconv got");
+    if (rad_octree_is(text)) {
+        const place *where = keep_place(reader, here);
+        return where ? rad_octree_read(reader, text, where, context, sink) : report_out_of_memory(reader->report);
+    }
     rad_words_begin(&s.words, text->bytes, text->length);
     graze_status status = GRAZE_OK;
     while (!status) {

@@ -56,6 +56,9 @@ graze_status rad_reader_command(rad_reader *, const char *command, const rad_con
 /* The shell's part of it. */
 graze_status rad_reader_shell(rad_reader *, const char *command, const rad_context *, const rad_sink *);
 
+/* Complains of argument counts that are not those of its type. */
+graze_status rad_reader_check(rad_reader *, rad_raw *);
+
 /* Reports an error that reading may go on after; gives the error's status when there have been too many of them. */
 graze_status rad_reader_complain(rad_reader *, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

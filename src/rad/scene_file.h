@@ -6,6 +6,8 @@
 #include <stdint.h>
 
 #include "base/report.h"
+#include "base/vector.h"
+#include "rad/transform.h"
 
 /* All primitive types of the language, so that an unsupported one can be told from a misspelt one. */
 typedef enum rad_type {
@@ -87,17 +89,57 @@ typedef struct rad_primitive {
     const place *where; /* of the first word of the primitive, parents and all */
 } rad_primitive;
 
+/* A compiled mesh. */
+typedef struct rad_mesh {
+    vec3 *points;
+    vec3 *normals;         /* by point: unit, or null vectors where there is none; null: nowhere */
+    double (*uv)[2];       /* by point: texture coordinates; null: nowhere */
+    unsigned char *has_uv; /* whether the point has them */
+    uint32_t point_count;
+    struct rad_mesh_triangle {
+        uint32_t points[3];
+        int32_t primitive; /* index of the primitive that stands for it and has its material as modifier; or -1 */
+    } * triangles;
+    uint32_t triangle_count;
+} rad_mesh;
+
+/* The scene itself, or what a file holds that an instance or a mesh names. Copies are of later parts than the one that
+ * they are in. */
+typedef struct rad_part {
+    const char *path;          /* of the file; null: the scene itself, which is the first part */
+    size_t first, count;       /* its primitives */
+    size_t first_copy, copies; /* its instances and meshes */
+    const rad_mesh *mesh;      /* null: it is an octree, or the scene */
+} rad_part;
+
+/* What an instance or a mesh places. */
+typedef struct rad_copy {
+    int32_t primitive; /* the instance or mesh */
+    int32_t part;
+    rad_transform transform;
+} rad_copy;
+
+/* Parts in parts in parts: so deep. */
+#define RAD_DEPTH 32
+
 typedef struct rad_scene rad_scene;
 
-/* Reads the named scenes in order, as one description: each a .rad file, `!command` (run by the shell; `!xform` is done
- * here), or `-` for standard input. Aliases are resolved: an alias appears as a primitive of its own with the type and
- * arguments of what it stands for. Undefined modifiers, unknown types, wrong argument counts or malformed numbers, a
- * failing command: errors with their place. All errors of a file that can be told apart are reported, up to 20, before
- * this returns. */
+/* Reads the named scenes in order, as one description: each a .rad file, an octree, `!command` (run by the shell;
+ * `!xform` is done here), or `-` for standard input; and then the octrees and meshes that its instances and meshes
+ * name. Aliases are resolved: an alias appears as a primitive of its own with the type and arguments of what it stands
+ * for. Undefined modifiers, unknown types, wrong argument counts or malformed numbers, a failing command: errors with
+ * their place. All errors of a file that can be told apart are reported, up to 20, before this returns. */
 graze_status rad_scene_read(rad_scene **, const char *const *names, size_t count, const graze_report *);
+/* Reads the octrees and meshes that the scene's instances and meshes name, each once, and those that these name.
+ * Octrees in octrees that hold themselves are an error, and so are files that are not there, or damaged. */
+graze_status rad_scene_read_parts(rad_scene *, const graze_report *);
 void rad_scene_destroy(rad_scene *);
 
+/* Of all parts that have been read. */
 const rad_primitive *rad_scene_primitives(const rad_scene *, size_t *count);
+/* These are there after rad_scene_read_parts. */
+const rad_part *rad_scene_parts(const rad_scene *, size_t *count);
+const rad_copy *rad_scene_copies(const rad_scene *);
 
 /* Reports an error about a primitive: "FILE:LINE:COLUMN: TYPE ID: TEXT". */
 graze_status rad_primitive_error(const graze_report *, const rad_primitive *, const char *format, ...)

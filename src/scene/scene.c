@@ -309,7 +309,7 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
-        b.status = geometry_build(&scene->geometry, scene->shapes, scene->surface_count,
+        b.status = geometry_build(&scene->geometry, &(geometry_group){scene->shapes, scene->surface_count, NULL, 0}, 1,
                                   b.settings->threads > 1 ? b.settings->threads : 1, report);
     if (b.status == GRAZE_OK && needs_sights(scene))
         b.status = geometry_prepare_sights(scene->geometry, report);

@@ -131,7 +131,7 @@ fails "a type not supported" 1 "glass.rad:2:1: glass g" "" "$gtrace" glass.rad
 printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
 fails "an undefined modifier" 1 "undefined.rad:1:1" "" "$gtrace" undefined.rad
 printf '#?RADIANCE\noconv room.rad\nFORMAT=Radiance_octree\n\n\001\002' >room.oct
-fails "an octree" 1 "room.oct: an octree is not read yet" "" "$gtrace" room.oct
+fails "a damaged octree" 1 "room.oct: octree: incompatible format (byte " "" "$gtrace" room.oct
 fails "a failing command" 1 "exit 3" "" "$gtrace" '!exit 3'
 
 printf 'void light l 0 0 3 1e200 1 1 l sphere s 0 0 4 0 0 0 1\n' >bright.rad

@@ -3,26 +3,15 @@
 
 #include "geometry/geometry.h"
 #include "geometry/oracle.h"
+#include "geometry/scenes.h"
 
 static geometry *build(const shape *shapes, size_t count, int threads) {
     geometry *g;
     messages m = {0};
     graze_report report = {messages_write, &m};
-    if (geometry_build(&g, shapes, count, threads, &report) != GRAZE_OK)
+    if (geometry_build(&g, &(geometry_group){.shapes = shapes, .shape_count = count}, 1, threads, &report) != GRAZE_OK)
         fail_msg("%s", m.last);
     return g;
-}
-
-static shape quadrangle(vec3 a, vec3 b, vec3 c, vec3 d) {
-    return make_polygon(4, (vec3[]){a, b, c, d});
-}
-
-static shape triangle(vec3 a, vec3 b, vec3 c) {
-    return make_polygon(3, (vec3[]){a, b, c});
-}
-
-static geometry_ray ray_from(vec3 origin, vec3 direction, int from) {
-    return (geometry_ray){origin, vec3_normalize(direction), GEOMETRY_FAR, from};
 }
 
 static void empty_scene(void **state) {
@@ -35,41 +24,6 @@ static void empty_scene(void **state) {
     assert_false(geometry_occluded(g, &ray, -1));
     geometry_destroy(g);
     geometry_destroy(NULL);
-}
-
-#define ZOO_POLYGONS 40
-#define ZOO_CURVED   40
-#define ZOO          (ZOO_POLYGONS + ZOO_CURVED)
-
-/* Polygons with holes, spheres, cylinders, cones and rings all through one another. */
-static void roll_zoo(dice *d, shape *shapes, double scale, vec3 at) {
-    for (int i = 0; i < ZOO_POLYGONS; i++) {
-        double x[OUTLINE_LIMIT], y[OUTLINE_LIMIT];
-        uint32_t n = i % 3 ? 3 : roll_outline(d, x, y);
-        vec3 origin = vec3_add(at, roll_in_cube(d, scale)), v[OUTLINE_LIMIT];
-        frame f = frame_around(roll_direction(d));
-        for (uint32_t k = 0; k < n; k++) {
-            if (n == 3)
-                v[k] = vec3_add(origin, roll_in_cube(d, 0.5 * scale));
-            else
-                v[k] = vec3_add_scaled(vec3_add_scaled(origin, 0.5 * scale * x[k], f.x), 0.5 * scale * y[k], f.y);
-        }
-        shapes[i] = make_polygon(n, v);
-    }
-    for (int i = 0; i < ZOO_CURVED; i++) {
-        vec3 p0 = vec3_add(at, roll_in_cube(d, scale)), p1 = vec3_add(p0, roll_in_cube(d, 0.5 * scale));
-        double r = scale * roll_between(d, 0.01, 0.3);
-        shape *s = &shapes[ZOO_POLYGONS + i];
-        if (i % 4 == 0)
-            *s = make_sphere(p0, r);
-        else if (i % 4 == 1)
-            *s = make_cone(p0, p1, r, r);
-        else if (i % 4 == 2)
-            *s = make_cone(p0, p1, r, i % 8 == 2 ? 0 : 2 * r);
-        else
-            *s = make_ring(p0, vec3_subtract(p1, p0), 0.3 * r, 1.5 * r);
-        s->inward = i % 4 != 3 && i % 16 >= 8;
-    }
 }
 
 /* Whether the oracle's answer hangs on less than double precision can tell. */
@@ -85,8 +39,8 @@ static int compare_with_oracle(const geometry *g, const shape *shapes, const geo
     assert_true(geometry_occluded(g, ray, -1) == found || is_doubtful(&expected, size));
     if (hit->surface != expected.surface) {
         if (!is_doubtful(&expected, size))
-            fail_msg("surface %d, not %d at %.17Lg (margin %Lg)", hit->surface, expected.surface, expected.distance,
-                     expected.margin);
+            fail_msg("surface %d, not %d at %.17Lg (margin %Lg)", (int)hit->surface, expected.surface,
+                     expected.distance, expected.margin);
         return 0;
     }
     if (!found)
@@ -97,7 +51,7 @@ static int compare_with_oracle(const geometry *g, const shape *shapes, const geo
         return 1;
     double tolerance = 1e-12 * hit->distance + 16 * 0x1p-52 * size / cosine;
     if (fabsl(hit->distance - expected.distance) > tolerance)
-        fail_msg("surface %d at %.17g, not %.17Lg", hit->surface, hit->distance, expected.distance);
+        fail_msg("surface %d at %.17g, not %.17Lg", (int)hit->surface, hit->distance, expected.distance);
     vec3 along = vec3_add_scaled(ray->origin, hit->distance, ray->direction);
     assert_true(vec3_length(vec3_subtract(along, hit->point)) <= tolerance);
     return 1;
@@ -167,50 +121,6 @@ static void occlusion_same_as_brute_force(void **state) {
     geometry_destroy(g);
 }
 
-/* A box of divided faces, normals outward: 12 n^2 triangles. */
-static size_t make_box(shape *shapes, vec3 lower, double edge, int n) {
-    size_t count = 0;
-    for (int face = 0; face < 6; face++)
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++) {
-                vec3 corner[4];
-                for (int k = 0; k < 4; k++) {
-                    double u = edge * (i + (k == 1 || k == 2)) / n, v = edge * (j + (k >= 2)) / n;
-                    double w = face & 1 ? edge : 0;
-                    vec3 at = face / 2 == 0   ? vec3_make(w, u, v)
-                              : face / 2 == 1 ? vec3_make(v, w, u)
-                                              : vec3_make(u, v, w);
-                    corner[face & 1 ? k : 3 - k] = vec3_add(lower, at);
-                }
-                shapes[count++] = triangle(corner[0], corner[1], corner[2]);
-                shapes[count++] = triangle(corner[0], corner[2], corner[3]);
-            }
-    return count;
-}
-
-static vec3 globe_point(vec3 center, double radius, int i, int j, int n) {
-    if (i == 0 || i == n)
-        return vec3_add(center, vec3_make(0, 0, i ? -radius : radius));
-    double theta = PI * i / n, phi = 2 * PI * (j % (2 * n)) / (2 * n);
-    return vec3_add(center,
-                    vec3_make(radius * sin(theta) * cos(phi), radius * sin(theta) * sin(phi), radius * cos(theta)));
-}
-
-/* A globe of triangles with shared corners. */
-static size_t make_globe(shape *shapes, vec3 center, double radius, int n) {
-    size_t count = 0;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < 2 * n; j++) {
-            vec3 a = globe_point(center, radius, i, j, n), b = globe_point(center, radius, i + 1, j, n);
-            vec3 c = globe_point(center, radius, i + 1, j + 1, n), e = globe_point(center, radius, i, j + 1, n);
-            if (i < n - 1)
-                shapes[count++] = triangle(a, b, c);
-            if (i > 0)
-                shapes[count++] = triangle(a, c, e);
-        }
-    return count;
-}
-
 /* Sends rays about inside of a closed convex surface; each must hit the surface's inside, and so must the ray that goes
  * on from there in another direction inwards. Every other ray goes for some corner or the middle of some edge. */
 static void check_closed(const shape *shapes, size_t count, vec3 inside, double reach, int rays, uint64_t seed) {
@@ -233,7 +143,7 @@ static void check_closed(const shape *shapes, size_t count, vec3 inside, double 
         if (!geometry_intersect(g, &ray, &hit))
             fail_msg("ray %d leaks from (%.17g %.17g %.17g) towards (%.17g %.17g %.17g), having left %d", i,
                      ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z,
-                     ray.from);
+                     (int)ray.from);
         if (!geometry_occluded(g, &ray, -1))
             fail_msg("ray %d is not occluded", i);
         vec3 next = roll_direction(&d);

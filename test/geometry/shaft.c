@@ -152,7 +152,8 @@ static void add_cloth(world *w, dice *d, int cells) {
 static void build(world *w) {
     messages m = {0};
     graze_report report = {messages_write, &m};
-    if (geometry_build(&w->geometry, w->shapes, (size_t)w->count, 1, &report) != GRAZE_OK)
+    const geometry_group scene = {.shapes = w->shapes, .shape_count = (size_t)w->count};
+    if (geometry_build(&w->geometry, &scene, 1, 1, &report) != GRAZE_OK)
         fail_msg("%s", m.last);
     assert_int_equal(geometry_prepare_sights(w->geometry, &report), GRAZE_OK);
 }
@@ -420,11 +421,12 @@ static void unprepared(void **state) {
     messages m = {0};
     graze_report report = {messages_write, &m};
     add_lamp(&w, panel(&w, 1, 1, 2, 1));
-    assert_int_equal(geometry_build(&w.geometry, w.shapes, 1, 1, &report), GRAZE_OK);
+    assert_int_equal(
+        geometry_build(&w.geometry, &(geometry_group){.shapes = w.shapes, .shape_count = 1}, 1, 1, &report), GRAZE_OK);
     assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_MIXED);
     assert_true(geometry_reflects_above(w.geometry, sight.point, sight.normal, -1));
     geometry_destroy(w.geometry);
-    assert_int_equal(geometry_build(&w.geometry, NULL, 0, 1, &report), GRAZE_OK);
+    assert_int_equal(geometry_build(&w.geometry, &(geometry_group){0}, 1, 1, &report), GRAZE_OK);
     assert_int_equal(geometry_prepare_sights(w.geometry, &report), GRAZE_OK);
     geometry_destroy(w.geometry);
 }

@@ -167,6 +167,20 @@ lit_picture() {
     gpict -x 48 -y 48 -vp 0 -5 2 -vd 0 5 -2 --samples 64 lit.rad >lit.hdr && pfilt -1 -e 2 lit.hdr | pcomb -s .5 - >combined.hdr
     close "$(pvalue -h -H -d -b lit.hdr | total -m)" "$(pvalue -h -H -d -b combined.hdr | total -m)"
 }
+octree_of_files() { same "$(gtrace -h -ovLsN glows.oct <rays.txt)" "$(rtrace -h -w -ovLsN glows.oct <rays.txt)"; }
+frozen_octree() {
+    oconv -f glows.rad >frozen.oct
+    mkdir -p elsewhere && cp frozen.oct rays.txt elsewhere && cd elsewhere || return 1
+    same "$(gtrace -h -ovLsNmM frozen.oct <rays.txt)" "$(rtrace -h -w -ovLsNmM frozen.oct <rays.txt)"
+    local status=$?
+    cd .. && return $status
+}
+included_octree() {
+    oconv -b -10 -10 -10 20 glows.rad >first.oct &&
+        oconv -i first.oct '!echo red sphere small 0 0 4 .2 -3 .1 .2' >second.oct &&
+        same "$(gtrace -h -ovLsN second.oct <rays.txt)" "$(rtrace -h -w -ovLsN second.oct <rays.txt)"
+}
+oconv_in_a_command() { same "$(gtrace -h -ovLsN '!oconv -f glows.rad' <rays.txt)" "$(rtrace -h -w -ovLsN frozen.oct <rays.txt)"; }
 no_oconv() { same "$(echo '0 -5 .1 0 1 0' | gtrace -h -os '!xform -t 0 0 .1 glows.rad')" "$(echo '0 -5 .1 0 1 0' | rtrace -h -w -os '!oconv "!xform -t 0 0 .1 glows.rad"')"; }
 
 quiet "vwrays | gtrace -ffc makes a picture of vwrays' size" header_is_a_picture
@@ -206,5 +220,8 @@ for v in "${views[@]}"; do
 done
 quiet "pfilt and pcomb over a lit picture" lit_picture
 quiet "a !command as scene" no_oconv
-fails "a real octree is told from a scene" 1 "an octree is not read yet" "" gtrace glows.oct
+quiet "an octree as scene: the files that it names" octree_of_files
+quiet "a frozen octree as scene" frozen_octree
+quiet "an octree that includes another" included_octree
+quiet "oconv in a !command" oconv_in_a_command
 plan
