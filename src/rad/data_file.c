@@ -180,7 +180,7 @@ static void find_shares(double steps, double step, double share[2]) {
 
 void rad_data_values(const rad_data *grid, const float *const *planes, int count, const double *point, double *values) {
     double shares[RAD_DATA_DIMENSIONS][2];
-    size_t offsets[RAD_DATA_DIMENSIONS], first = 0, stride = 1;
+    size_t offsets[RAD_DATA_DIMENSIONS] = {0}, first = 0, stride = 1;
     for (int d = grid->dimensions; d-- > 0;) {
         double steps;
         size_t step = find_step(&grid->axes[d], point[d], &steps);

@@ -95,7 +95,8 @@ static bool make_point_room(mesh_file *f, uint32_t count) {
         return true;
     capacity = 2 * (capacity + PATCH_POINTS);
     vec3 *points = realloc(m->points, capacity * sizeof *points);
-    m->points = points ? points : m->points;
+    if (points)
+        m->points = points;
     vec3 *normals = points ? realloc(m->normals, capacity * sizeof *normals) : NULL;
     m->normals = normals ? normals : m->normals;
     double(*uv)[2] = normals ? realloc(m->uv, capacity * sizeof *uv) : NULL;

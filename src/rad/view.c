@@ -121,7 +121,6 @@ typedef struct option_words {
 
 static void copy_words(option_words *w, const char *line) {
     char *out = w->text;
-    w->count = 0;
     while (*line && w->count < WORDS_MOST) {
         size_t length = strcspn(line, blanks);
         if (length >= 64)
@@ -149,7 +148,7 @@ static graze_status read_view_options(rad_view *view, const char *line, toleranc
     else
         p += strcspn(p, blanks);
     for (p += strspn(p, blanks); *p; p += strspn(p, blanks)) {
-        option_words w;
+        option_words w = {.count = 0};
         place here = where ? *where : (place){0};
         here.column = (int)(p - line) + 1;
         copy_words(&w, p);

@@ -86,7 +86,7 @@ static void prepare(const path *p, const path_hit *hit, const material_ray *ray,
         return;
     }
     double share = material_mixture_share(m->mixture, ray);
-    vertex fore = *v, back = *v;
+    vertex fore = *v, back = fore;
     if (share > 0)
         prepare(p, hit, ray, &materials[m->fore], e, &fore);
     if (share < 1)

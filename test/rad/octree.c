@@ -201,7 +201,7 @@ static void tells_of_damage_with_its_place(void **state) {
 static void survives_damage(void **state) {
     (void)state;
     binary whole = frozen(4, 5);
-    dice random = {9};
+    dice d = {9};
     int refused = 0;
     const char *name = "bad.oct";
     for (size_t round = 0; round < 4 * whole.length; round++) {
@@ -209,8 +209,8 @@ static void survives_damage(void **state) {
         if (round < whole.length)
             b.length = round;
         else
-            for (uint64_t i = 0; i < 1 + roll_bits(&random) % 3; i++)
-                b.bytes[54 + roll_bits(&random) % (b.length - 54)] = (char)roll_bits(&random);
+            for (uint64_t i = 0; i < 1 + roll_bits(&d) % 3; i++)
+                b.bytes[54 + roll_bits(&d) % (b.length - 54)] = (char)roll_bits(&d);
         for (size_t i = 54; i < b.length; i++)
             if (b.bytes[i] == '!')
                 b.bytes[i] = '?';
