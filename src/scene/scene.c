@@ -61,6 +61,13 @@ static bool is_mirror(const scene_material *material) {
 
 static int material_of(builder *, int modifier);
 
+static graze_status need_modifiers(builder *b) {
+    graze_scene *scene = b->scene;
+    if (!scene->modifiers)
+        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
+    return scene->modifiers ? GRAZE_OK : report_out_of_memory(b->report);
+}
+
 /* The chain of a modifier; all that is needed for patterns is made when the first is met. */
 static graze_status find_chain(builder *b, int modifier, material_chain *chain) {
     graze_scene *scene = b->scene;
@@ -68,11 +75,10 @@ static graze_status find_chain(builder *b, int modifier, material_chain *chain) 
     *chain = (material_chain){.material = modifier};
     if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
         return GRAZE_OK;
-    if (!scene->modifiers)
-        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
-    if (!scene->modifiers)
-        return report_out_of_memory(b->report);
-    graze_status status = material_chain_find(chain, scene->modifiers, modifier);
+    graze_status status = need_modifiers(b);
+    if (status)
+        return status;
+    status = material_chain_find(chain, scene->modifiers, modifier);
     if (!status && chain->material == RAD_VOID)
         return rad_primitive_error(b->report, p, "there is no material behind it");
     return status;
@@ -102,7 +108,12 @@ static graze_status read_material(builder *b, scene_material *material, const ra
     }
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
-    return status;
+    if (status || !material_orients_by_function(p))
+        return status;
+    status = need_modifiers(b);
+    if (status)
+        return status;
+    return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);
 }
 
 static int add_material(builder *b, int modifier) {
@@ -150,7 +161,7 @@ static void add_light(builder *b, scene_light light) {
 static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->emits || material->mixture || !material->reflector.has_orientation)
+    if (!flat || material->emits || material->mixture || material->orientation || !material->reflector.has_orientation)
         return;
     vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
     graze_surface probe;

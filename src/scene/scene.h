@@ -10,7 +10,7 @@
 #include "geometry/geometry.h"
 #include "graze/material.h"
 #include "graze/scene.h"
-#include "material/modifier.h"
+#include "material/orientation.h"
 #include "rad/scene_file.h"
 #include "scene/light_tree.h"
 
@@ -48,6 +48,7 @@ typedef struct scene_material {
     bool emits;
     graze_material reflector;           /* unless `emits`, nor a mixture */
     scene_light light;                  /* if it emits: what the material says of a light */
+    const material_orientation *orientation; /* by functions, or null */
     const material_modifier *modifiers; /* patterns and textures, or null */
     const material_modifier *mixture;   /* or null: */
     int fore, back;                     /* indices into materials */

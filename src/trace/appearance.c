@@ -30,10 +30,15 @@ static rgb colored(rgb color, rgb pattern) {
                  fmin(fmax(c.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
-static void prepare_reflector(const path *p, const path_hit *hit, const scene_material *m, const material_effect *e,
-                              vertex *v) {
+static void prepare_reflector(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
+                              const material_effect *e, vertex *v) {
     graze_material reflector = m->reflector;
     reflector.color = colored(reflector.color, e->color);
+    if (m->orientation) {
+        material_ray own = *ray;
+        own.normal = v->normal;
+        reflector.orientation = material_orientation_at(m->orientation, &own);
+    }
     vec3 normal = lean(hit, e);
     v->leans = normal.x != v->normal.x || normal.y != v->normal.y || normal.z != v->normal.z;
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
@@ -82,7 +87,7 @@ static void prepare(const path *p, const path_hit *hit, const material_ray *ray,
     if (m->modifiers)
         e = add_effect(m, ray, e);
     if (!m->mixture) {
-        prepare_reflector(p, hit, m, &e, v);
+        prepare_reflector(p, hit, ray, m, &e, v);
         return;
     }
     double share = material_mixture_share(m->mixture, ray);

@@ -310,6 +310,8 @@ def cases():
     relief = 0.8 * outward + middle
     seen = (([1, -3, 1.5] - relief) * outward).sum(1) > 0
     yield Case("relief", "lamp relief", aim([1, -3, 1.5], relief[seen]), "-ab 0 -st 1", repeat=512)
+    turned = np.vstack([np.c_[other.uniform(-0.6, 0.6, (60, 2)), np.zeros(60)], normalized(other.normal(size=(60, 3))) * 0.6 + [2, 0, 0.6]])
+    yield Case("grooves by functions", "lamp lathe", aim([0.4, -2, 3], turned), "-ab 0 -st 1", repeat=256)
     # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
     yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
                samples=8192)
