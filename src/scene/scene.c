@@ -8,6 +8,7 @@
 #include "material/from_primitive.h"
 #include "scene/ambient_choice.h"
 #include "scene/emitter.h"
+#include "scene/light_pattern.h"
 #include "scene/model_choice.h"
 
 /* Materials that the description's primitives have become, and errors met on the way: one pass reports all. */
@@ -317,11 +318,14 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         if (b.status == GRAZE_OK)
             add_surfaces(&b, primitive_count);
     }
+    int threads = b.settings->threads > 1 ? b.settings->threads : 1;
+    if (b.status == GRAZE_OK)
+        b.status = light_patterns_prepare(scene, threads, report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
         b.status = geometry_build(&scene->geometry, &(geometry_group){scene->shapes, scene->surface_count, NULL, 0}, 1,
-                                  b.settings->threads > 1 ? b.settings->threads : 1, report);
+                                  threads, report);
     if (b.status == GRAZE_OK && needs_sights(scene))
         b.status = geometry_prepare_sights(scene->geometry, report);
     free(b.material_of);

@@ -29,6 +29,8 @@ typedef enum light_role {
 typedef struct scene_light {
     rgb radiance;
     const material_modifier *modifiers; /* patterns, or null */
+    rgb typical;                        /* the mean of the radiance, patterns and all; never black */
+    const struct source_table *table;   /* of a source with patterns; else null */
     const shape *shape;                 /* null for a source */
     int surface;                        /* index of the shape; -1 for a source */
     int primitive;                      /* of the surface, in the description */
@@ -46,12 +48,12 @@ typedef struct scene_light {
 typedef struct scene_material {
     int primitive; /* the material, or the mixture, in the description */
     bool emits;
-    graze_material reflector;           /* unless `emits`, nor a mixture */
-    scene_light light;                  /* if it emits: what the material says of a light */
+    graze_material reflector;                /* unless `emits`, nor a mixture */
+    scene_light light;                       /* if it emits: what the material says of a light */
     const material_orientation *orientation; /* by functions, or null */
-    const material_modifier *modifiers; /* patterns and textures, or null */
-    const material_modifier *mixture;   /* or null: */
-    int fore, back;                     /* indices into materials */
+    const material_modifier *modifiers;      /* patterns and textures, or null */
+    const material_modifier *mixture;        /* or null: */
+    int fore, back;                          /* indices into materials */
 } scene_material;
 
 typedef struct scene_surface {
