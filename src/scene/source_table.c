@@ -13,7 +13,7 @@
 
 /* Cells begin at so many, twice as many across; each time they are halved both ways, until within a cell the radiance
  * differs from its mean by this part on the average. */
-#define FEWEST_ROWS       16
+#define FEWEST_ROWS       32
 #define MOST_ROWS         128 /* of functions */
 #define MOST_PICTURE_ROWS 512
 #define EVEN_ENOUGH       0.05

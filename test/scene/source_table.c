@@ -97,8 +97,10 @@ static void draws_are_unbiased(void **state) {
             if (!(fabs(integral - expected) < 5 * deviation / sqrt(DRAWS) + 0.001 * expected))
                 fail_msg("%s from %s: %g, not %g", functions[f], sources[s], integral, expected);
             /* Good enough to choose lights by. */
-            assert_true(fabs(light->typical.r * area - expected) < 0.2 * expected);
-            if (!(deviation < 0.6 * integral))
+            if (!(fabs(light->typical.r * area - expected) < 0.2 * expected))
+                fail_msg("%s from %s: typical %g, not %g", functions[f], sources[s], light->typical.r * area, expected);
+            /* Drawn alike they would have up to 10 times the mean. */
+            if (!(deviation < 0.8 * integral))
                 fail_msg("%s from %s: deviation %g of %g", functions[f], sources[s], deviation, integral);
             graze_scene_destroy(scene);
         }
