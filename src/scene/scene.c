@@ -54,7 +54,7 @@ static void fail(builder *b, graze_status status) {
 static bool is_mirror(const scene_material *material) {
     const vec3 normal = {0, 0, 1};
     graze_surface probe;
-    if (material->emits || material->mixture)
+    if (material->emits || material->mixture || material->reflection)
         return false;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
@@ -106,6 +106,12 @@ static graze_status read_material(builder *b, scene_material *material, const ra
         graze_status status = emitter_to_light(&material->light, p, b->report);
         material->light.modifiers = material->modifiers;
         return status;
+    }
+    if (material_reflects_by_function(p->type)) {
+        graze_status status = need_modifiers(b);
+        if (status)
+            return status;
+        return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
     }
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
@@ -162,7 +168,8 @@ static void add_light(builder *b, scene_light light) {
 static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->emits || material->mixture || material->orientation || !material->reflector.has_orientation)
+    if (!flat || material->emits || material->mixture || material->orientation || material->reflection ||
+        !material->reflector.has_orientation)
         return;
     vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
     graze_surface probe;

@@ -11,6 +11,7 @@
 #include "graze/material.h"
 #include "graze/scene.h"
 #include "material/orientation.h"
+#include "material/reflection.h"
 #include "rad/scene_file.h"
 #include "scene/light_tree.h"
 
@@ -51,6 +52,7 @@ typedef struct scene_material {
     graze_material reflector;                /* unless `emits`, nor a mixture */
     scene_light light;                       /* if it emits: what the material says of a light */
     const material_orientation *orientation; /* by functions, or null */
+    const material_reflection *reflection;   /* the same; `reflector` is then not set */
     const material_modifier *modifiers;      /* patterns and textures, or null */
     const material_modifier *mixture;        /* or null: */
     int fore, back;                          /* indices into materials */

@@ -6,7 +6,7 @@
 
 /* Whether what the material says is all there is to it. */
 static inline bool appearance_is_plain(const scene_material *m) {
-    return !m->modifiers && !m->mixture && !m->orientation;
+    return !m->modifiers && !m->mixture && !m->orientation && !m->reflection;
 }
 
 /* Prepares the vertex's shading, and what depends on it, for a material that is not plain; `v->normal` must be set.

@@ -320,6 +320,10 @@ def cases():
     yield Case("luminaires", "luminaires", aim([0.5, -3, 2.5], floor[:, :3] * 0.7), "-ab 0", repeat=256)
     yield Case("luminaires, seen", "luminaires", aim([0.1, 0.2, 0.1], [[-0.8, -0.8, 2], [-0.7, -0.9, 2], [1.01, 1.02, 1.6], [1, -1.05, 1.8], [-1, 1, 2]]), "-ab 0", repeat=64)
     yield Case("screen", "screen", aim([0.5, -3, 2.5], floor[:, :3] * 0.7), "-ab 0 -st 1", repeat=256)
+    squares = np.c_[other.uniform(-2, 2, (120, 2)), np.zeros(120)]
+    yield Case("reflectance functions", "lamp functions", aim([0.4, -2, 3], squares), "-ab 0", repeat=256)
+    yield Case("reflectance functions from below", "lamp functions", aim([0.4, -2, -3], squares), "-ab 0", repeat=256)
+    yield Case("reflectance functions, one bounce", "lamp functions wall", aim([0.4, -2, 3], squares[squares[:, 0] < 0][::3]), "-ab 1", "-ad 1024", repeat=64)
     # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
     yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
                samples=8192)
