@@ -138,6 +138,7 @@ static int add_material(builder *b, int modifier) {
         fail(b, status);
         return MATERIAL_REFUSED;
     }
+    made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection;
     scene->materials[scene->material_count] = made;
     scene->has_mirrors = scene->has_mirrors || is_mirror(&made);
     return (int)scene->material_count++;

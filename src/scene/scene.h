@@ -49,6 +49,7 @@ typedef struct scene_light {
 typedef struct scene_material {
     int primitive; /* the material, or the mixture, in the description */
     bool emits;
+    bool plain;                              /* it reflects, and `reflector` is all there is to it: */
     graze_material reflector;                /* unless `emits`, nor a mixture */
     scene_light light;                       /* if it emits: what the material says of a light */
     const material_orientation *orientation; /* by functions, or null */

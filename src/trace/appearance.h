@@ -4,11 +4,6 @@
 
 #include "trace/path_state.h"
 
-/* Whether what the material says is all there is to it. */
-static inline bool appearance_is_plain(const scene_material *m) {
-    return !m->modifiers && !m->mixture && !m->orientation && !m->reflection;
-}
-
 /* Prepares the vertex's shading, and what depends on it, for a material that is not plain; `v->normal` must be set.
  * Where two materials are mixed that cannot be prepared as one, one of them is drawn. */
 void appearance_prepare(const path *, const path_hit *, const scene_material *, vertex *v);

@@ -45,7 +45,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     v->leans = v->drawn = false;
     v->function = NULL;
     bool irradiance = p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT;
-    if (!irradiance && !appearance_is_plain(material)) {
+    if (!irradiance && !material->plain) {
         appearance_prepare(p, hit, material, v);
         return true;
     }
