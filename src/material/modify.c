@@ -85,6 +85,28 @@ material_effect material_modify(const material_modifier *first, const material_r
     return effect;
 }
 
+static size_t count_of(const rad_data *data) {
+    size_t count = data ? 1 : 0;
+    for (int d = 0; data && d < data->dimensions; d++)
+        count *= data->axes[d].count;
+    return count;
+}
+
+static size_t larger(size_t a, size_t b) {
+    return a > b ? a : b;
+}
+
+size_t material_modifiers_pixels(const material_modifier *first) {
+    size_t most = 0;
+    for (const material_modifier *m = first; m; m = m->next) {
+        most = larger(most, count_of(m->picture ? &m->picture->grid : m->data[0]));
+        if (m->kind == MATERIAL_MIXTURE)
+            most = larger(most, larger(material_modifiers_pixels(m->fore_modifiers),
+                                       material_modifiers_pixels(m->back_modifiers)));
+    }
+    return most;
+}
+
 vec3 material_perturbed_normal(vec3 normal, vec3 perturbation, vec3 direction) {
     if (!(vec3_dot(perturbation, perturbation) > NOTHING * NOTHING))
         return normal;

@@ -3,6 +3,7 @@
 
 #include "base/angle.h"
 #include "geometry/solid_angle.h"
+#include "scene/source_table.h"
 
 light_role light_role_at(const scene_light *light, double distance) {
     if (!light->glow)
@@ -81,8 +82,12 @@ light_sample light_draw(const graze_scene *scene, vec3 point, double travelled, 
     if (light->shape)
         return draw_shape(light, index, point, travelled, random);
     light_sample sample = {.light = -1, .distance = GEOMETRY_FAR, .radiance = light->radiance};
-    sample.direction = solid_angle_draw_cone(light->center, light->half_angle, random[0], random[1]);
-    sample.density = 1 / solid_angle_of_cone(light->half_angle);
+    if (light->table) {
+        sample.direction = source_table_draw(light->table, random, &sample.density);
+    } else {
+        sample.direction = solid_angle_draw_cone(light->center, light->half_angle, random[0], random[1]);
+        sample.density = 1 / solid_angle_of_cone(light->half_angle);
+    }
     if (light_source_towards(scene, sample.direction) != index)
         return sample;
     sample.light = index;
@@ -95,5 +100,5 @@ double light_density(const graze_scene *scene, vec3 point, int index, vec3 direc
     const scene_light *light = &scene->lights[index];
     if (light->shape)
         return solid_angle_density(light->shape, point, direction, hit_point, hit_normal);
-    return 1 / solid_angle_of_cone(light->half_angle);
+    return light->table ? source_table_density(light->table, direction) : 1 / solid_angle_of_cone(light->half_angle);
 }

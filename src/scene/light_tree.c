@@ -137,9 +137,9 @@ static summary summarize_light(const light_tree *t, const scene_light *light) {
         m.cosine = -1;
     m.core = m.area / PI;
     if (!light->glow || light->glow_radius > 0)
-        m.radiance = light->radiance;
+        m.radiance = light->typical;
     if (light->glow)
-        m.ambient = light->radiance;
+        m.ambient = light->typical;
     return m;
 }
 
@@ -455,7 +455,7 @@ static void summarize_lights(builder *b, size_t count, double *most) {
         b->order[b->count++].light = (int)i;
         t->has_glows = t->has_glows || light->glow;
         t->has_spots = t->has_spots || light->spot;
-        *most = fmax(*most, rgb_max(light->radiance));
+        *most = fmax(*most, rgb_max(light->typical));
     }
 }
 

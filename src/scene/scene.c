@@ -8,6 +8,7 @@
 #include "material/from_primitive.h"
 #include "scene/ambient_choice.h"
 #include "scene/emitter.h"
+#include "scene/light_pattern.h"
 #include "scene/model_choice.h"
 
 /* Materials that the description's primitives have become, and errors met on the way: one pass reports all. */
@@ -53,13 +54,20 @@ static void fail(builder *b, graze_status status) {
 static bool is_mirror(const scene_material *material) {
     const vec3 normal = {0, 0, 1};
     graze_surface probe;
-    if (material->emits || material->mixture)
+    if (material->emits || material->mixture || material->reflection)
         return false;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
 }
 
 static int material_of(builder *, int modifier);
+
+static graze_status need_modifiers(builder *b) {
+    graze_scene *scene = b->scene;
+    if (!scene->modifiers)
+        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
+    return scene->modifiers ? GRAZE_OK : report_out_of_memory(b->report);
+}
 
 /* The chain of a modifier; all that is needed for patterns is made when the first is met. */
 static graze_status find_chain(builder *b, int modifier, material_chain *chain) {
@@ -68,11 +76,10 @@ static graze_status find_chain(builder *b, int modifier, material_chain *chain) 
     *chain = (material_chain){.material = modifier};
     if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
         return GRAZE_OK;
-    if (!scene->modifiers)
-        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
-    if (!scene->modifiers)
-        return report_out_of_memory(b->report);
-    graze_status status = material_chain_find(chain, scene->modifiers, modifier);
+    graze_status status = need_modifiers(b);
+    if (status)
+        return status;
+    status = material_chain_find(chain, scene->modifiers, modifier);
     if (!status && chain->material == RAD_VOID)
         return rad_primitive_error(b->report, p, "there is no material behind it");
     return status;
@@ -100,9 +107,20 @@ static graze_status read_material(builder *b, scene_material *material, const ra
         material->light.modifiers = material->modifiers;
         return status;
     }
+    if (material_reflects_by_function(p->type)) {
+        graze_status status = need_modifiers(b);
+        if (status)
+            return status;
+        return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
+    }
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
-    return status;
+    if (status || !material_orients_by_function(p))
+        return status;
+    status = need_modifiers(b);
+    if (status)
+        return status;
+    return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);
 }
 
 static int add_material(builder *b, int modifier) {
@@ -120,6 +138,7 @@ static int add_material(builder *b, int modifier) {
         fail(b, status);
         return MATERIAL_REFUSED;
     }
+    made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection;
     scene->materials[scene->material_count] = made;
     scene->has_mirrors = scene->has_mirrors || is_mirror(&made);
     return (int)scene->material_count++;
@@ -150,7 +169,8 @@ static void add_light(builder *b, scene_light light) {
 static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->emits || material->mixture || !material->reflector.has_orientation)
+    if (!flat || material->emits || material->mixture || material->orientation || material->reflection ||
+        !material->reflector.has_orientation)
         return;
     vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
     graze_surface probe;
@@ -306,11 +326,14 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         if (b.status == GRAZE_OK)
             add_surfaces(&b, primitive_count);
     }
+    int threads = b.settings->threads > 1 ? b.settings->threads : 1;
+    if (b.status == GRAZE_OK)
+        b.status = light_patterns_prepare(scene, threads, report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
         b.status = geometry_build(&scene->geometry, &(geometry_group){scene->shapes, scene->surface_count, NULL, 0}, 1,
-                                  b.settings->threads > 1 ? b.settings->threads : 1, report);
+                                  threads, report);
     if (b.status == GRAZE_OK && needs_sights(scene))
         b.status = geometry_prepare_sights(scene->geometry, report);
     free(b.material_of);

@@ -10,7 +10,8 @@
 #include "geometry/geometry.h"
 #include "graze/material.h"
 #include "graze/scene.h"
-#include "material/modifier.h"
+#include "material/orientation.h"
+#include "material/reflection.h"
 #include "rad/scene_file.h"
 #include "scene/light_tree.h"
 
@@ -29,6 +30,8 @@ typedef enum light_role {
 typedef struct scene_light {
     rgb radiance;
     const material_modifier *modifiers; /* patterns, or null */
+    rgb typical;                        /* the mean of the radiance, patterns and all; never black */
+    const struct source_table *table;   /* of a source with patterns; else null */
     const shape *shape;                 /* null for a source */
     int surface;                        /* index of the shape; -1 for a source */
     int primitive;                      /* of the surface, in the description */
@@ -46,11 +49,14 @@ typedef struct scene_light {
 typedef struct scene_material {
     int primitive; /* the material, or the mixture, in the description */
     bool emits;
-    graze_material reflector;           /* unless `emits`, nor a mixture */
-    scene_light light;                  /* if it emits: what the material says of a light */
-    const material_modifier *modifiers; /* patterns and textures, or null */
-    const material_modifier *mixture;   /* or null: */
-    int fore, back;                     /* indices into materials */
+    bool plain;                              /* it reflects, and `reflector` is all there is to it: */
+    graze_material reflector;                /* unless `emits`, nor a mixture */
+    scene_light light;                       /* if it emits: what the material says of a light */
+    const material_orientation *orientation; /* by functions, or null */
+    const material_reflection *reflection;   /* the same; `reflector` is then not set */
+    const material_modifier *modifiers;      /* patterns and textures, or null */
+    const material_modifier *mixture;        /* or null: */
+    int fore, back;                          /* indices into materials */
 } scene_material;
 
 typedef struct scene_surface {

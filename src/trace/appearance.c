@@ -30,12 +30,38 @@ static rgb colored(rgb color, rgb pattern) {
                  fmin(fmax(c.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
-static void prepare_reflector(const path *p, const path_hit *hit, const scene_material *m, const material_effect *e,
-                              vertex *v) {
+static void lean_vertex(const path_hit *hit, const material_effect *e, vertex *v, vec3 *normal) {
+    *normal = lean(hit, e);
+    v->leans = normal->x != v->normal.x || normal->y != v->normal.y || normal->z != v->normal.z;
+}
+
+/* The function's part is for lights, the diffuse part for these, too; all else is reflected by the whole colour. */
+static void prepare_function(const path_hit *hit, const material_ray *ray, const material_reflection *r,
+                             const material_effect *e, vertex *v) {
+    rgb color = colored(r->color, e->color);
+    const graze_material diffuse = {.kind = GRAZE_PLASTIC, .color = rgb_scale(1 - r->specularity, color)};
+    vec3 normal;
+    lean_vertex(hit, e, v, &normal);
+    graze_surface_prepare(&v->shading, &diffuse, normal, vec3_negate(hit->direction), NULL);
+    v->ambient = color;
+    v->gloss_is_ambient = false;
+    v->function = r;
+    v->function_point = (material_reflection_point){*ray, normal, color};
+    v->function_point.ray.normal = v->normal;
+    v->function_color = rgb_scale(r->specularity, r->metal ? color : rgb_gray(1));
+}
+
+static void prepare_reflector(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
+                              const material_effect *e, vertex *v) {
     graze_material reflector = m->reflector;
     reflector.color = colored(reflector.color, e->color);
-    vec3 normal = lean(hit, e);
-    v->leans = normal.x != v->normal.x || normal.y != v->normal.y || normal.z != v->normal.z;
+    if (m->orientation) {
+        material_ray own = *ray;
+        own.normal = v->normal;
+        reflector.orientation = material_orientation_at(m->orientation, &own);
+    }
+    vec3 normal;
+    lean_vertex(hit, e, v, &normal);
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
     vertex_find_ambient(p, v, &reflector);
 }
@@ -59,7 +85,7 @@ static rgb blend(double share, rgb a, rgb b) {
 static bool blend_vertices(vertex *v, double share, const vertex *fore, const vertex *back) {
     const graze_surface *a = &fore->shading, *b = &back->shading;
     bool one_lobe = a->specular_lobe == GRAZE_LOBE_NONE || b->specular_lobe == GRAZE_LOBE_NONE;
-    if (!is_same(a->n, b->n) || a->fresnel || b->fresnel || (!one_lobe && !have_same_lobe(fore, back)))
+    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel || (!one_lobe && !have_same_lobe(fore, back)))
         return false;
     *v = a->specular_lobe == GRAZE_LOBE_NONE ? *back : *fore;
     v->shading.diffuse = blend(share, a->diffuse, b->diffuse);
@@ -81,8 +107,12 @@ static void prepare(const path *p, const path_hit *hit, const material_ray *ray,
     const scene_material *materials = p->context->scene->materials;
     if (m->modifiers)
         e = add_effect(m, ray, e);
+    if (m->reflection) {
+        prepare_function(hit, ray, m->reflection, &e, v);
+        return;
+    }
     if (!m->mixture) {
-        prepare_reflector(p, hit, m, &e, v);
+        prepare_reflector(p, hit, ray, m, &e, v);
         return;
     }
     double share = material_mixture_share(m->mixture, ray);

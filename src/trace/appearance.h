@@ -1,13 +1,8 @@
-/* Surfaces whose material has patterns, textures, or is a mixture: as they are at a hit. */
+/* Surfaces whose material has patterns, textures, or functions, or is a mixture: as they are at a hit. */
 #ifndef TRACE_APPEARANCE_H
 #define TRACE_APPEARANCE_H
 
 #include "trace/path_state.h"
-
-/* Whether what the material says is all there is to it. */
-static inline bool appearance_is_plain(const scene_material *m) {
-    return !m->modifiers && !m->mixture;
-}
 
 /* Prepares the vertex's shading, and what depends on it, for a material that is not plain; `v->normal` must be set.
  * Where two materials are mixed that cannot be prepared as one, one of them is drawn. */

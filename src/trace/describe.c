@@ -16,7 +16,7 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
         bool turned = found->behind && !scene->materials[scene->surfaces[found->surface].material].emits;
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
         const scene_material *material = &scene->materials[scene->surfaces[found->surface].material];
-        if (!material->emits && !appearance_is_plain(material))
+        if (!material->emits && !material->plain)
             hit.shading_normal = appearance_normal(scene, found, 0);
     } else if (found->light >= 0) {
         primitive = scene->lights[found->light].primitive;

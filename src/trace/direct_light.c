@@ -4,6 +4,7 @@
 #include "base/angle.h"
 #include "trace/known_light.h"
 #include "trace/observer.h"
+#include "trace/vertex.h"
 
 /* Few lights are all sampled at the first point, and up to so many at later ones. */
 #define EVERY_LIGHT_LATER 2
@@ -15,7 +16,10 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
     const path_context *context = p->context;
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
     light_receiver receiver = {.point = v->point, .surface = &v->shading, .diffuse = v->shading.diffuse};
-    if (!context_samples_lights(context->settings) || (!glossy && rgb_is_black(v->ambient))) {
+    if (v->function)
+        receiver.diffuse = rgb_add(receiver.diffuse, v->function_color);
+    if (!context_samples_lights(context->settings) ||
+        (!glossy && rgb_is_black(v->ambient) && rgb_is_black(receiver.diffuse))) {
         light_choice_none(lights);
         return;
     }
@@ -51,6 +55,8 @@ static rgb reflectance_for_light(const path *p, const vertex *v, const light_sam
     if (role == LIGHT_NONE || (ambient && !context_samples_glows(context->settings)))
         return rgb_gray(0);
     graze_surface_value(&v->shading, sample->direction, &diffuse, &glossy);
+    if (v->function && !ambient)
+        diffuse = rgb_add(diffuse, vertex_function_value(v, sample->direction));
     if (ambient)
         diffuse = path_bounces_left(p) ? rgb_scale(1 / PI, v->ambient) : rgb_gray(0);
     if (ambient && v->gloss_is_ambient)

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "graze/material.h"
+#include "material/reflection.h"
 #include "scene/light_choice.h"
 
 typedef struct vertex {
@@ -14,6 +15,9 @@ typedef struct vertex {
     graze_surface shading;
     rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
     bool gloss_is_ambient;
+    const material_reflection *function; /* lights are reflected by it, beside diffusely; null: none */
+    material_reflection_point function_point;
+    rgb function_color; /* to multiply its values by */
     bool leans;      /* the normal of `shading` is not the surface's own */
     bool drawn;      /* which material of a mixture the surface has here was drawn at random */
     bool no_ambient; /* diffuse light from surfaces is not followed here (-ae, -ai) */

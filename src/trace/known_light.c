@@ -50,7 +50,7 @@ static path_memory_light look_at(const path *p, const vertex *v, int index, bool
     path_memory_light *kept = p->depth == 0 ? &p->context->memory->lights[index] : NULL;
     if (kept && kept->kept)
         return *kept;
-    bool whole = !v->leans || light_choice_is_above(scene, index, v->point, v->normal);
+    bool whole = !v->function && (!v->leans || light_choice_is_above(scene, index, v->point, v->normal));
     path_memory_light found = {.times_mixed = kept ? kept->times_mixed : 0};
     if (found.times_mixed < MIXED_GIVEN_UP)
         found.seen = visibility(scene, v, index);

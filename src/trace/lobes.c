@@ -1,6 +1,9 @@
 /* Choosing and drawing lobes; Russian roulette. */
 #include "trace/lobes.h"
 
+#include "base/angle.h"
+#include "trace/vertex.h"
+
 /* Beyond this many reflections every path plays roulette, so that a room of perfect mirrors ends. */
 #define ENDLESS_DEPTH    64
 #define ENDLESS_SURVIVAL 0.9
@@ -53,7 +56,8 @@ static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool 
 
 lobe_choice lobes_choose(const path *p, const vertex *v) {
     lobe_choice choice = {0};
-    double diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, v->ambient, path_bounces_left(p), &choice.diffuse_ends);
+    rgb matte = v->function ? rgb_add(v->ambient, v->function_color) : v->ambient;
+    double diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, path_bounces_left(p), &choice.diffuse_ends);
     double specular = 0;
     if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
         specular = survival(p, v->shading.specular);
@@ -120,6 +124,9 @@ bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, lobe_ch
     bool ends = diffuse ? choice.diffuse_ends : choice.specular_ends;
     double scale = 1 / (diffuse ? choice.diffuse : choice.specular);
     graze_surface_sample sample = draw_direction(p, &v->shading, lobe, random);
+    /* The function is found by diffuse samples. */
+    if (v->function && diffuse)
+        sample.weight = rgb_add_scaled(sample.weight, PI, vertex_function_value(v, sample.direction));
     /* The weight of a diffuse sample is its reflectance: for `light`s that of the diffuse part alone. */
     rgb onward = ends ? rgb_gray(0) : diffuse ? v->ambient : sample.weight;
     if (rgb_is_black(sample.weight) && rgb_is_black(onward))

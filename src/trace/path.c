@@ -32,7 +32,7 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     bool wanted = context->cache || context->record;
     if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
         context->settings->ambient_bounces < 2 || v->no_ambient || v->gloss_is_ambient || v->shading.fresnel ||
-        v->leans)
+        v->leans || v->function)
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[2];

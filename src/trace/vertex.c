@@ -24,6 +24,12 @@ void vertex_find_ambient(const path *p, vertex *v, const graze_material *m) {
         v->ambient = rgb_add(v->ambient, v->shading.specular);
 }
 
+rgb vertex_function_value(const vertex *v, vec3 direction) {
+    if (!v->function || !(vec3_dot(direction, v->shading.n) > 0))
+        return rgb_gray(0);
+    return rgb_scale(material_reflection_value(v->function, &v->function_point, direction), v->function_color);
+}
+
 bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     if (hit->surface < 0 || rgb_is_black(p->throughput))
         return false;
@@ -37,8 +43,9 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     v->surface = hit->surface;
     v->no_ambient = scene->surfaces[hit->surface].no_ambient;
     v->leans = v->drawn = false;
+    v->function = NULL;
     bool irradiance = p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT;
-    if (!irradiance && !appearance_is_plain(material)) {
+    if (!irradiance && !material->plain) {
         appearance_prepare(p, hit, material, v);
         return true;
     }
@@ -52,8 +59,10 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
 
 bool vertex_keep_part(vertex *v, graze_part part) {
     bool mirror = v->shading.specular_lobe == GRAZE_LOBE_MIRROR;
-    if (part == GRAZE_MIRRORED)
+    if (part == GRAZE_MIRRORED) {
         v->shading.diffuse = v->ambient = rgb_gray(0);
+        v->function = NULL;
+    }
     if (part == GRAZE_UNMIRRORED && mirror) {
         v->shading.specular_lobe = GRAZE_LOBE_NONE;
         v->shading.specular = rgb_gray(0);

@@ -10,6 +10,9 @@ bool vertex_at_hit(const path *, const path_hit *, vertex *);
 /* Sets what the ambient term stands for at a vertex whose shading is prepared from this material. */
 void vertex_find_ambient(const path *, vertex *, const graze_material *);
 
+/* What a vertex's function reflects to the viewer of light from a direction, in 1/sr; black where it has none. */
+rgb vertex_function_value(const vertex *, vec3 direction);
+
 /* Leaves of a vertex what the part of its light needs. False: nothing. */
 bool vertex_keep_part(vertex *, graze_part);
 

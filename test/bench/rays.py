@@ -107,11 +107,11 @@ class Bench:
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def scene(self, name, text):
+    def scene(self, name, text, walls=WALLS):
         path = self.path(name + ".rad")
         if not os.path.exists(path):
             with open(path, "w") as f:
-                f.write(WALLS + text)
+                f.write(walls + text)
         return path
 
     def octree(self, scene):
@@ -255,6 +255,20 @@ def irradiance_points(b):
         judge(f"times rtrace's points a second at its error, {count / ours:,.0f}/s", seconds / ours, 20)
 
 
+MODIFIERS = {
+    "brightfunc": "void brightfunc painted 2 if(sin(9*Px)*sin(9*Py),1,.6) . 0 0\n",
+    "texfunc": "void texfunc painted 4 .1*noise3a(9*Px,9*Py,9*Pz) .1*noise3b(9*Px,9*Py,9*Pz) .1*noise3c(9*Px,9*Py,9*Pz) . 0 0\n",
+    "mixfunc": "void plastic dark 0 0 5 .3 .3 .3 .02 .1\nvoid plastic light 0 0 5 .6 .6 .6 0 0\n"
+               "void mixfunc wall 4 dark light .5+.5*sin(9*Px) . 0 0\n",
+}
+
+
+def painted(kind):
+    """The walls with a modifier, or of a mixture."""
+    wall = "void plastic wall 0 0 5 .6 .6 .6 0 0\n"
+    return WALLS.replace(wall, MODIFIERS[kind] + (wall.replace("void", "painted") if kind != "mixfunc" else ""))
+
+
 def cost(b):
     one = lamp("lamp1", 1, 1, 2, 2)
     rows = [
@@ -273,6 +287,8 @@ def cost(b):
     commands = {}
     for label, name, text, options in rows:
         commands[label] = GTRACE + ["-n", "1"] + options + ONE_PATH + [b.scene(name, text)]
+    for kind in MODIFIERS:
+        commands["two lights, walls with " + kind] = GTRACE + ["-n", "1"] + ONE_PATH + [b.scene(kind, TWO_LAMPS, painted(kind))]
     found = b.measure(commands, b.rays)
     print("\ncost grows with what a scene uses: --samples 1, one thread")
     first = next(iter(found.values()))[0]

@@ -310,6 +310,20 @@ def cases():
     relief = 0.8 * outward + middle
     seen = (([1, -3, 1.5] - relief) * outward).sum(1) > 0
     yield Case("relief", "lamp relief", aim([1, -3, 1.5], relief[seen]), "-ab 0 -st 1", repeat=512)
+    turned = np.vstack([np.c_[other.uniform(-0.6, 0.6, (60, 2)), np.zeros(60)], normalized(other.normal(size=(60, 3))) * 0.6 + [2, 0, 0.6]])
+    yield Case("grooves by functions", "lamp lathe", aim([0.4, -2, 3], turned), "-ab 0 -st 1", repeat=256)
+    terrace = np.vstack([floor[::3], sensors([-2, 1, 0.1], [2, 1, 1.4], 36, [0, -1, 0], random)])
+    around = aim([0, 0, 3], [0, 0, 3] + normalized(other.normal(size=(64, 3))) * [1, 1, 0.5])
+    for sky in ["sky_clear", "sky_perez", "sky_picture"]:
+        yield Case(sky + ", irradiance", sky + " terrace", terrace[::2], "-I -ab 1", "-ad 1024", repeat=64, samples=8192)
+        yield Case(sky + ", seen", sky, around, "-ab 0", repeat=64)
+    yield Case("luminaires", "luminaires", aim([0.5, -3, 2.5], floor[:, :3] * 0.7), "-ab 0", repeat=256)
+    yield Case("luminaires, seen", "luminaires", aim([0.1, 0.2, 0.1], [[-0.8, -0.8, 2], [-0.7, -0.9, 2], [1.01, 1.02, 1.6], [1, -1.05, 1.8], [-1, 1, 2]]), "-ab 0", repeat=64)
+    yield Case("screen", "screen", aim([0.5, -3, 2.5], floor[:, :3] * 0.7), "-ab 0 -st 1", repeat=256)
+    squares = np.c_[other.uniform(-2, 2, (120, 2)), np.zeros(120)]
+    yield Case("reflectance functions", "lamp functions", aim([0.4, -2, 3], squares), "-ab 0", repeat=256)
+    yield Case("reflectance functions from below", "lamp functions", aim([0.4, -2, -3], squares), "-ab 0", repeat=256)
+    yield Case("reflectance functions, one bounce", "lamp functions wall", aim([0.4, -2, 3], squares[squares[:, 0] < 0][::3]), "-ab 1", "-ad 1024", repeat=64)
     # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
     yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
                samples=8192)

@@ -26,8 +26,6 @@ static void unsupported_types_are_refused_by_name(void **state) {
                    "not supported");
     assert_refused("void specfile p 1 noise 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
                    ":1:1: specfile p", "not supported");
-    assert_refused("void plastic2 m 4 Nx Ny Nz . 0 6 1 1 1 .1 .1 .1 m sphere s 0 0 4 0 0 0 1\n", ":1:1: plastic2 m",
-                   "function");
 }
 
 static void surfaces_need_a_material(void **state) {

@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "material/from_primitive.h"
+#include "material/orientation.h"
 #include "scene/emitter.h"
 
 static const char *place_name(const char *file) {
@@ -55,6 +56,8 @@ static graze_status read_material(graze_material *material, const rad_scene *sce
     if (emitter_is(p->type))
         return rad_primitive_error(report, p, "shines, and has no reflectance");
     graze_status status = material_from_primitive(material, p, report);
+    if (status == GRAZE_OK && material_orients_by_function(p))
+        status = rad_primitive_error(report, p, "its orientation depends on where in a scene it is seen");
     if (status == GRAZE_OK && p->modifier != RAD_VOID)
         status = rad_primitive_error(report, &rad_scene_primitives(scene, &count)[p->modifier],
                                      "modifies %s %s, which is not supported yet", rad_type_name(p->type), p->id);

@@ -1,0 +1,49 @@
+/* Skies and lamps: CIE's skies as gensky asks for them, Perez's as gendaylit does, and the photometry of ies2rad. */
+#include "cal/own_files.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* R. Perez, R. Seals, J. Michalsky: All-weather model for sky luminance distribution. Solar Energy 50 (1993). A1 is the
+ * norm, A2 the ground, A3 .. A7 the coefficients, A8 .. A10 the sun. Sky and ground fade into each other about the
+ * horizon, here and below, in proportion to (Dz + 1.01)^10 and its reciprocal. */
+static const char perezlum[] = "tosun = A8*Dx + A9*Dy + A10*Dz; high = max(Dz, .01);"
+                               "intersky = A1*(1 + A3*Exp(A4/high))*(1 + A5*Exp(A6*Acos(tosun)) + A7*tosun*tosun);"
+                               "up = (Dz + 1.01)^10; down = 1/up; skybright = (up*intersky + down*A2)/(up + down);";
+
+/* CIE's clear (1), overcast (2) and intermediate sky (4), and a uniform one (3), by A1; A2 is the zenith, A3 the
+ * ground, A4 the norm for the sun's height, A5 .. A7 the sun. */
+static const char skybright[] =
+    "tosun = A5*Dx + A6*Dy + A7*Dz; gamma = Acos(tosun); fromzenith = Acos(Dz); sunzenith = Acos(A7);"
+    "sunnysky = A2/A4*(.91 + .45*tosun*tosun + 10*exp(-3*gamma))*if(Dz - .01, 1 - exp(-.32/Dz), 1);"
+    "cloudysky = A2*(1 + 2*Dz)/3; unifsky = A2;"
+    "intersky = A2/A4*(6.37 - fromzenith + sin(4.396 - 2.6*sunzenith)*(3.12 + 1.35*sin(5.631 - 3.59*fromzenith)))/2.326"
+    "  *exp(-.563*gamma*(.812 + (2.629 - fromzenith)*(1.562 - sunzenith)));"
+    "up = (Dz + 1.01)^10; down = (Dz + 1.01)^-10;"
+    "skybr = (up*select(A1, sunnysky, cloudysky, unifsky, intersky) + down*A3)/(up + down);";
+
+/* Angles in degrees from the axis -z, and about it from x; and factors from candela to radiance for A1, a multiplier,
+ * and A2 .. A4, the sizes of a box, or A2 and A3, a cylinder's diameter and height. */
+static const char source[] = "corr(v) = if(AC - .5, A1*v, v); flatcorr(v) = corr(v)/Rdot;"
+                             "boxcorr(v) = A1*v/(A2*A3*abs(Dz) + A2*A4*abs(Dy) + A3*A4*abs(Dx));"
+                             "beyond(p, size) = noneg(abs(p) - size/2);"
+                             "lboxcorr(v) = A1*v*Ts/(beyond(Px - Dx*Ts, A2)*A3*A4 + beyond(Py - Dy*Ts, A3)*A2*A4 + "
+                             "beyond(Pz - Dz*Ts, A4)*A2*A3);"
+                             "cylcorr(v) = A1*v/(A2*A3*sqrt(1 - Dz*Dz) + A2*A2*PI/4*abs(Dz));"
+                             "src_theta = Acos(Dz)/DEGREE; src_phi = mod(Atan2(-Dy, -Dx)/DEGREE, 360);"
+                             "src_phi2 = tri(src_phi, 180); src_phi4 = tri(src_phi, 90);"
+                             "srcB_vert = atan2(-Dx, Dz)/DEGREE; srcB_horiz = atan2(Dy, Dz)/DEGREE;"
+                             "srcB_vert2 = abs(srcB_vert); srcB_horiz2 = abs(srcB_horiz);";
+
+static const struct {
+    const char *name, *text;
+} files[] = {{"perezlum", perezlum}, {"skybright", skybright}, {"source", source}};
+
+const char *cal_own_file(const char *name) {
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        size_t length = strlen(files[i].name);
+        if (strncmp(name, files[i].name, length) == 0 && (!name[length] || strcmp(name + length, ".cal") == 0))
+            return files[i].text;
+    }
+    return NULL;
+}

@@ -1,0 +1,69 @@
+/* How bright lights with patterns are on the average. */
+#include "scene/light_pattern.h"
+
+#include "base/angle.h"
+#include "geometry/solid_angle.h"
+#include "scene/light.h"
+#include "scene/source_table.h"
+
+/* From so many points about a shape, in so many directions each. */
+enum { POINTS = 32, DIRECTIONS = 8 };
+
+/* A light that looked black where it was looked at must still be chosen now and then. */
+#define LEAST_PART 1e-3
+
+/* Points of a sphere, and of the unit square, evenly: by steps of the golden section and of its like. */
+static double step(int i, double length) {
+    double x = (i + 0.5) * length;
+    return x - floor(x);
+}
+
+static vec3 point_about(int i) {
+    double z = 1 - 2 * (i + 0.5) / POINTS, angle = 2 * PI * step(i, 0.6180339887), r = sqrt(1 - z * z);
+    return vec3_make(r * cos(angle), r * sin(angle), z);
+}
+
+/* The mean over what points at some distance see of the light. */
+static rgb mean_of_shape(const scene_light *light) {
+    vec3 lower, upper;
+    shape_bounds(light->shape, &lower, &upper);
+    vec3 middle = vec3_scale(0.5, vec3_add(lower, upper));
+    double distance = 3 * vec3_length(vec3_subtract(upper, lower));
+    rgb sum = {0, 0, 0};
+    int count = 0;
+    for (int i = 0; i < POINTS * DIRECTIONS; i++) {
+        vec3 point = vec3_add_scaled(middle, distance, point_about(i / DIRECTIONS));
+        solid_angle_sample s = solid_angle_draw(light->shape, point, step(i, 0.7548776662), step(i, 0.5698402910));
+        if (s.density == 0)
+            continue;
+        vec3 hit = vec3_add_scaled(point, s.distance, s.direction), normal = shape_normal(light->shape, hit);
+        rgb radiance = light_radiance(light, s.direction, normal);
+        sum = rgb_add(sum, light_patterned(light, radiance, hit, s.direction, normal, s.distance, 0));
+        count++;
+    }
+    return rgb_scale(count > 0 ? 1.0 / count : 0, sum);
+}
+
+static rgb at_least(rgb mean, rgb radiance) {
+    return (rgb){fmax(mean.r, LEAST_PART * radiance.r), fmax(mean.g, LEAST_PART * radiance.g),
+                 fmax(mean.b, LEAST_PART * radiance.b)};
+}
+
+graze_status light_patterns_prepare(graze_scene *scene, int threads, const graze_report *report) {
+    graze_status status = GRAZE_OK;
+    for (size_t i = 0; i < scene->light_count && !status; i++) {
+        scene_light *light = &scene->lights[i];
+        light->typical = light->radiance;
+        if (!light->modifiers)
+            continue;
+        rgb mean = {0, 0, 0};
+        source_table *table = NULL;
+        if (light->shape)
+            mean = mean_of_shape(light);
+        else
+            status = source_table_make(&table, &mean, light, scene->memory, threads, report);
+        light->table = table;
+        light->typical = at_least(mean, light->radiance);
+    }
+    return status;
+}
