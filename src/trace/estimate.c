@@ -17,7 +17,9 @@
 
 /* In all that is noisy, something of the value's own size that has happened in none of n samples may yet change the
  * mean: by 3/n of it where they are few and like independent ones, by 1/n where they are spread evenly. That much must
- * be within the error. */
+ * be within the error. Below the floor a value's own size says little of what may yet come, and the less the smaller it
+ * is: what is missing may be as large beside the floor as the floor is beside the value. So many samples are taken, but
+ * not more than of zeros. */
 #define UNSEEN      1.0
 #define UNSEEN_FEW  3.0
 #define FEW_SAMPLES 32.0
@@ -38,7 +40,8 @@ typedef struct half {
     int control_count;
     bool with_parts;
     estimate_parts parts;                            /* sums */
-    rgb spread;                                      /* sum */
+    bool cached;
+    rgb told[IRRADIANCE_PARTS];                      /* sums */
     double lit[PATH_CONTROLS], whole[PATH_CONTROLS]; /* sums of the controls' */
     rgb sum[BLOCKS];                                 /* those after the last block begun are not set */
     rgb difference[BLOCKS][PATH_CONTROLS];
@@ -83,6 +86,12 @@ static void add_controls(half *h, int block, const path_sample *sample) {
     }
 }
 
+static void add_told(half *h, const path_sample *sample) {
+    for (int i = 0; i < IRRADIANCE_PARTS; i++)
+        h->told[i] = rgb_add(h->cached ? h->told[i] : rgb_gray(0), sample->told[i]);
+    h->cached = true;
+}
+
 static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     sampler points = sampler_start(h->key, h->taken);
     estimate_luck luck = ESTIMATE_NOISY;
@@ -91,7 +100,8 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     h->sum[block] = rgb_add(h->sum[block], taken.radiance);
     add_controls(h, block, &taken);
     h->integrated = h->integrated || taken.integrated;
-    h->spread = rgb_add(h->spread, taken.spread);
+    if (taken.cached)
+        add_told(h, &taken);
     h->luck = luck > h->luck ? luck : h->luck;
     if (h->with_parts) {
         h->parts.indirect = rgb_add(h->parts.indirect, taken.indirect);
@@ -265,6 +275,24 @@ static double unseen_shadows(const half halves[HALVES]) {
     return unseen;
 }
 
+/* Of the mean of what the irradiance cache's parts say, as they differ. */
+static rgb variance_of_cache(const half halves[HALVES], const double share[HALVES]) {
+    rgb told[IRRADIANCE_PARTS], mean = {0, 0, 0}, squares = {0, 0, 0};
+    for (int k = 0; k < IRRADIANCE_PARTS; k++) {
+        told[k] = rgb_gray(0);
+        for (int i = 0; i < HALVES; i++)
+            if (halves[i].cached)
+                told[k] = rgb_add_scaled(told[k], share[i] / halves[i].taken, halves[i].told[k]);
+        mean = rgb_add_scaled(mean, 1.0 / IRRADIANCE_PARTS, told[k]);
+    }
+    for (int k = 0; k < IRRADIANCE_PARTS; k++) {
+        rgb difference = rgb_add_scaled(told[k], -1, mean);
+        squares = rgb_add(squares, rgb_multiply(difference, difference));
+    }
+    double freedom = IRRADIANCE_PARTS - 1;
+    return rgb_scale(widening(freedom) / (freedom * IRRADIANCE_PARTS), squares);
+}
+
 static void summarize(const half halves[HALVES], const finding found[HALVES], graze_answer *answer) {
     double share[HALVES];
     share_halves(halves, share);
@@ -275,9 +303,8 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
     double squares[HALVES] = {share[0] * share[0], share[1] * share[1]};
     rgb variance = variance_by(&e, (laws){squares[0] * first.slow + squares[1] * second.slow,
                                           squares[0] * first.fast + squares[1] * second.fast});
-    rgb spread = rgb_add_scaled(rgb_scale(share[0] / halves[0].taken, halves[0].spread), share[1] / halves[1].taken,
-                                halves[1].spread);
-    variance = rgb_add(variance, rgb_multiply(spread, spread));
+    if (halves[0].cached || halves[1].cached)
+        variance = rgb_add(variance, variance_of_cache(halves, share));
     answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
     double unseen = unseen_shadows(halves), brightness = rgb_brightness(answer->value);
     if (unseen > 0 && brightness > 0) {
@@ -296,8 +323,9 @@ static double samples_to_believe(const graze_trace_settings *s, estimate_luck lu
         return EMPTY_SEARCH_BELIEVED;
     if (value == 0)
         return ZEROS_BELIEVED;
-    double part = value / (s->error * fmax(value, s->floor));
-    double unseen = fmax(UNSEEN * part, fmin(UNSEEN_FEW * part, FEW_SAMPLES));
+    double few = UNSEEN_FEW / s->error, unseen = fmax(UNSEEN / s->error, fmin(few, FEW_SAMPLES));
+    if (value < s->floor)
+        unseen = fmax(unseen, fmin(few * s->floor / value, ZEROS_BELIEVED));
     return search ? fmax(unseen, SEARCH_BELIEVED) : unseen;
 }
 
@@ -311,16 +339,9 @@ static bool is_enough(const graze_trace_settings *s, const half *judge, const fi
     return rgb_max(variance) / HALVES <= allowed * allowed;
 }
 
-/* What both together may state, of the error asked for. Asking it of each answer would have samples judge themselves
- * again: at --error .05 scenes/bench/office.rad comes out 0.17% too dark with 1, and true to 0.03% with this. */
-#define STATED 1.5
-
-static bool is_stated(const graze_trace_settings *s, const graze_answer *answer) {
-    return rgb_max(answer->standard_error) <= STATED * s->error * fmax(rgb_max(answer->value), s->floor);
-}
-
-/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. Where both
- * together then state much more than the error asked for, all begins again. */
+/* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. What both together
+ * then state may be more than the error asked for; going on because of that would have samples judge themselves: those
+ * that found much and scatter would be added to, those that found little and scatter less would be believed. */
 static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
                    graze_answer *answer) {
     uint32_t limit = s->sample_limit / HALVES;
@@ -333,13 +354,11 @@ static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_
         const finding found[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
         for (int i = 0; i < HALVES; i++)
             enough[i] = enough[i] || is_enough(s, &halves[1 - i], &found[1 - i], halves[i].taken);
-        if (!last && !(enough[0] && enough[1]))
+        bool reached = enough[0] && enough[1];
+        if (!reached && !last)
             continue;
         summarize(halves, found, answer);
-        bool reached = enough[0] && enough[1] && is_stated(s, answer);
-        if (reached || last)
-            return reached;
-        enough[0] = enough[1] = false;
+        return reached;
     }
 }
 
@@ -350,7 +369,7 @@ static void begin(half *h, uint64_t key, bool with_parts) {
     h->integrated = false;
     h->luck = ESTIMATE_EXACT;
     h->with_parts = with_parts;
-    h->spread = rgb_gray(0);
+    h->cached = false;
     h->parts = (estimate_parts){{0, 0, 0}, {0, 0, 0}};
 }
 

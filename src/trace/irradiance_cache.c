@@ -5,12 +5,13 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "base/angle.h"
 #include "base/parallel.h"
 #include "base/report.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
 
-enum { CACHES = 2, PATHS_PER_PILOT = 16 };
+enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 };
 
 /* A cell's edge is at most this part of the distance that a path comes from, at an error of 0.03 and more; of smaller
  * errors, a smaller one, so that what cells get wrong by being as large as they are stays small beside them: about a
@@ -20,12 +21,12 @@ enum { CACHES = 2, PATHS_PER_PILOT = 16 };
 
 /* Fewer pilot paths make no cell. */
 #define FEWEST_POINTS 4
-/* Not more of their ends are points to start from, from each as many times as the others, and together at least as
- * often as this. A cell's own noise, a quarter of its value or so, is averaged over all cells that a pixel sees. */
-#define MOST_POINTS 16
-/* For smaller errors more, up to so many times. */
-#define MOST_PATHS            256
-#define ERROR_OF_FEWEST_PATHS 0.05
+
+/* Paths from their ends tell a cell's irradiance: so many that its own noise, which is averaged over all cells that a
+ * pixel sees, is this many times the error asked for, of its value or of the floor, and within these bounds. */
+#define NOISE_OF_ERROR 5.0
+#define FEWEST_PATHS   16
+#define MOST_PATHS     1024
 
 /* Of what is in no cell. */
 #define NO_KEY UINT64_MAX
@@ -34,9 +35,9 @@ enum { CACHES = 2, PATHS_PER_PILOT = 16 };
 
 typedef struct cell {
     uint64_t key;
-    size_t first, count, all; /* among the sorted records: those to start from, and all */
-    bool whole;               /* all are in one place */
-    rgb irradiance;
+    size_t first, count; /* among the sorted records */
+    bool whole;          /* all are in one place */
+    rgb irradiance[CELL_PARTS];
 } cell;
 
 /* What a path has come to, by cell. */
@@ -56,8 +57,7 @@ typedef struct half_cache {
 
 struct irradiance_cache {
     const graze_scene *scene;
-    double part;  /* of the distance, that a cell's edge is */
-    size_t paths; /* a cell */
+    double part; /* of the distance, that a cell's edge is */
     half_cache halves[CACHES];
 };
 
@@ -81,7 +81,9 @@ static double cell_edge(const irradiance_cache *cache, double distance) {
     return ldexp(0.5, exponent);
 }
 
-/* The cell about a point: of a surface that is large enough to fill it, or of all smaller ones together. */
+/* The cell about a point: of a polygon that is large enough to fill it, or of all else that faces the same way, since
+ * a mesh's triangles and a curved surface's parts are each too small to be met often. What is not lit alike for being
+ * on other things mostly is out of sight of each other, which makes no cell. */
 static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, const irradiance_record *record) {
     double edge = cell_edge(cache, record->distance);
     vec3 at = vec3_add_scaled(half->offset, 1 / edge, record->point);
@@ -103,12 +105,14 @@ static const cell *cell_of(const half_cache *half, uint64_t key) {
     return NULL;
 }
 
-bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_record *record, rgb found[2]) {
+bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_record *record,
+                           rgb found[IRRADIANCE_PARTS]) {
     for (int i = 0; i < CACHES; i++) {
         const cell *c = cell_of(&cache->halves[i], key_of(cache, &cache->halves[i], record));
         if (!c)
             return false;
-        found[i] = c->irradiance;
+        for (int k = 0; k < CELL_PARTS; k++)
+            found[i * CELL_PARTS + k] = c->irradiance[k];
     }
     return true;
 }
@@ -151,8 +155,7 @@ static void find_cells(half_cache *half, const keyed_record *records, size_t cou
             ;
         if (records[i].key == NO_KEY || end - i < FEWEST_POINTS)
             continue;
-        size_t points = end - i < MOST_POINTS ? end - i : MOST_POINTS;
-        half->cells[half->cell_count++] = (cell){.key = records[i].key, .first = i, .count = points, .all = end - i};
+        half->cells[half->cell_count++] = (cell){.key = records[i].key, .first = i, .count = end - i};
     }
 }
 
@@ -174,7 +177,7 @@ static bool is_in_one_place(const filling *f, const cell *c) {
     const irradiance_record *first = &f->records[c->first].record;
     double lift = LIFT * cell_edge(f->cache, first->distance);
     vec3 from = vec3_add_scaled(first->point, lift, first->normal);
-    for (size_t i = 1; i < c->all; i++) {
+    for (size_t i = 1; i < c->count; i++) {
         const irradiance_record *other = &f->records[c->first + i].record;
         vec3 way = vec3_subtract(vec3_add_scaled(other->point, lift, other->normal), from);
         geometry_ray ray = {.origin = from, .direction = vec3_safe_normalize(way), .far = vec3_length(way), .from = -1};
@@ -184,6 +187,51 @@ static bool is_in_one_place(const filling *f, const cell *c) {
     return true;
 }
 
+/* The paths of a cell, half of which decide how many the others are (trace/estimate.h says why). */
+typedef struct paths {
+    size_t taken; /* in each part */
+    rgb sum[CELL_PARTS / 2];
+    double brightness, squares; /* sums of all */
+} paths;
+
+/* Ends in the golden section's order: however many, they are evenly spread over all of a cell's. */
+static const irradiance_record *record_at(const filling *f, const cell *c, size_t number) {
+    double turn = (double)number * 0.6180339887498949;
+    size_t index = (size_t)((turn - floor(turn)) * (double)c->count);
+    return &f->records[c->first + (index < c->count ? index : 0)].record;
+}
+
+static void take_path(const filling *f, const cell *c, path_memory *memory, paths *p, int half, int part) {
+    path_context context = f->context;
+    context.memory = memory;
+    int all = half * (CELL_PARTS / 2) + part;
+    uint64_t key = sampler_key(context.settings->seed, c->key, 0x2000000u + f->number * CELL_PARTS + (uint32_t)all);
+    sampler points = sampler_start(key, (uint32_t)p->taken);
+    path_sample sample = path_irradiance_at(&context, record_at(f, c, p->taken * CELL_PARTS + (size_t)all), &points);
+    rgb value = sample.radiance;
+    for (int k = 0; k < sample.control_count; k++)
+        value = rgb_add(value, sample.controls[k].difference);
+    double brightness = rgb_brightness(value);
+    p->sum[part] = rgb_add(p->sum[part], value);
+    p->brightness += brightness;
+    p->squares += brightness * brightness;
+}
+
+static void take_paths(const filling *f, const cell *c, path_memory *memory, paths *p, int half, size_t goal) {
+    for (; p->taken < goal; p->taken++)
+        for (int part = 0; part < CELL_PARTS / 2; part++)
+            take_path(f, c, memory, p, half, part);
+}
+
+/* Whether so many paths in each part are enough, as one half of them finds. */
+static bool is_enough(const filling *f, const paths *judge, size_t taken) {
+    const graze_trace_settings *s = f->context.settings;
+    double count = (double)(judge->taken * (CELL_PARTS / 2)), mean = judge->brightness / count;
+    double variance = fmax(judge->squares - mean * judge->brightness, 0) / (count - 1);
+    double allowed = NOISE_OF_ERROR * s->error * fmax(mean, PI * s->floor);
+    return variance <= allowed * allowed * (double)(taken * CELL_PARTS);
+}
+
 static void fill_cell(void *user, size_t index, int worker) {
     (void)worker;
     filling *f = user;
@@ -191,18 +239,21 @@ static void fill_cell(void *user, size_t index, int worker) {
     c->whole = is_in_one_place(f, c);
     if (!c->whole)
         return;
-    uint64_t key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number);
     path_memory memory = {.alike = false};
-    path_context context = f->context;
-    context.memory = &memory;
-    for (size_t i = 0; i < f->cache->paths; i++) {
-        const irradiance_record *r = &f->records[c->first + i % c->count].record;
-        sampler points = sampler_start(key, (uint32_t)i);
-        path_sample sample = path_irradiance_at(&context, r, &points);
-        rgb value = sample.radiance;
-        for (int k = 0; k < sample.control_count; k++)
-            value = rgb_add(value, sample.controls[k].difference);
-        c->irradiance = rgb_add_scaled(c->irradiance, 1.0 / (double)f->cache->paths, value);
+    paths halves[2] = {{.taken = 0}, {.taken = 0}};
+    bool enough[2] = {false, false};
+    for (size_t goal = FEWEST_PATHS / CELL_PARTS; goal <= MOST_PATHS / CELL_PARTS; goal *= 2) {
+        for (int i = 0; i < 2; i++)
+            if (!enough[i])
+                take_paths(f, c, &memory, &halves[i], i, goal);
+        for (int i = 0; i < 2; i++)
+            enough[i] = enough[i] || is_enough(f, &halves[1 - i], halves[i].taken);
+        if (enough[0] && enough[1])
+            break;
+    }
+    for (int k = 0; k < CELL_PARTS; k++) {
+        const paths *p = &halves[k / (CELL_PARTS / 2)];
+        c->irradiance[k] = rgb_scale(1 / (double)p->taken, p->sum[k % (CELL_PARTS / 2)]);
     }
 }
 
@@ -265,8 +316,6 @@ graze_status irradiance_cache_build(irradiance_cache **out, const path_context *
         return report_out_of_memory(report);
     cache->scene = context->scene;
     cache->part = fmin(LARGEST_PART, PART_OF_ERROR * context->settings->error);
-    double more = ERROR_OF_FEWEST_PATHS / context->settings->error;
-    cache->paths = (size_t)fmin(fmax(more * more * MOST_POINTS, MOST_POINTS), MOST_PATHS);
     for (int i = 0; i < CACHES; i++) {
         pilot p = {.context = {.scene = context->scene, .settings = context->settings},
                    .cache = cache,

@@ -6,8 +6,9 @@
  * there end. Cells are small as seen from where a path comes, and where few pilot paths have been, there is none, and
  * the path goes on.
  *
- * There are two caches in one, of independent points, paths and cells. Paths take the mean of both; how much they
- * differ tells how wrong they are. */
+ * There are two caches in one, of independent pilot paths and cells, and each cell has been answered four times, from
+ * other points by other paths. Paths take the mean of all these parts; how much what they add up to differs tells how
+ * wrong it is. */
 #ifndef TRACE_IRRADIANCE_CACHE_H
 #define TRACE_IRRADIANCE_CACHE_H
 
@@ -15,6 +16,9 @@
 #include "trace/hit.h"
 
 typedef struct irradiance_cache irradiance_cache;
+
+/* So many answers that are independent but for what cells do to them. */
+enum { IRRADIANCE_PARTS = 8 };
 
 /* Where a pilot path has come to. */
 typedef struct irradiance_record {
@@ -34,6 +38,6 @@ graze_status irradiance_cache_build(irradiance_cache **, const path_context *, i
 void irradiance_cache_destroy(irradiance_cache *);
 
 /* Looks up the irradiance in both caches where a path has come to. False: it is in neither or only one of them. */
-bool irradiance_cache_find(const irradiance_cache *, const irradiance_record *, rgb found[2]);
+bool irradiance_cache_find(const irradiance_cache *, const irradiance_record *, rgb found[IRRADIANCE_PARTS]);
 
 #endif

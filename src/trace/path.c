@@ -35,16 +35,19 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
         v->leans || v->function)
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
-    rgb irradiance[2];
+    rgb irradiance[IRRADIANCE_PARTS];
     if (context->record) {
         *context->record = record;
         return true;
     }
     if (!irradiance_cache_find(context->cache, &record, irradiance))
         return false;
-    rgb reflected = rgb_scale(0.5 / PI, rgb_multiply(p->throughput, v->shading.diffuse));
-    p->radiance = rgb_add(p->radiance, rgb_multiply(reflected, rgb_add(irradiance[0], irradiance[1])));
-    p->spread = rgb_add(p->spread, rgb_multiply(reflected, rgb_add_scaled(irradiance[0], -1, irradiance[1])));
+    rgb reflected = rgb_scale(1 / PI, rgb_multiply(p->throughput, v->shading.diffuse));
+    for (int i = 0; i < IRRADIANCE_PARTS; i++) {
+        p->told[i] = rgb_multiply(reflected, irradiance[i]);
+        p->radiance = rgb_add_scaled(p->radiance, 1.0 / IRRADIANCE_PARTS, p->told[i]);
+    }
+    p->cached = true;
     v->shading.diffuse = v->ambient = rgb_gray(0);
     return v->shading.specular_lobe == GRAZE_LOBE_NONE;
 }
@@ -91,27 +94,29 @@ static void follow(path *p, gathering *here) {
     }
 }
 
-/* Sets all but what is written before it is read: the last reflection, what it found, and controls beyond their
- * number. */
+/* Sets all but what is written before it is read: the last reflection, what it found, controls beyond their number, and
+ * what the cache told. */
 static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->first_group = points->group;
     p->length = 0;
     p->throughput = (rgb){1, 1, 1};
-    p->radiance = p->spread = p->ambient_light = p->albedo = (rgb){0, 0, 0};
+    p->radiance = p->ambient_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
     p->known = (known_lights){0, 0, false};
-    p->integrated = false;
+    p->integrated = p->cached = false;
     p->control_count = 0;
 }
 
 static path_sample path_end(const path *p) {
     path_sample sample;
     sample.radiance = p->radiance;
-    sample.spread = p->spread;
+    sample.cached = p->cached;
+    for (int i = 0; i < IRRADIANCE_PARTS && p->cached; i++)
+        sample.told[i] = p->told[i];
     sample.control_count = p->control_count;
     sample.noisy = p->sampler->group != p->first_group;
     sample.searching = p->searching;

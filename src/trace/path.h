@@ -3,6 +3,7 @@
 #define TRACE_PATH_H
 
 #include "trace/hit.h"
+#include "trace/irradiance_cache.h"
 #include "trace/sampler.h"
 
 /* Direct light as if nothing cast shadows is known without sampling (trace/unshadowed.h). What the same samples would
@@ -19,12 +20,13 @@ enum { PATH_CONTROLS = PATH_FEW_LIGHTS + 1 };
 
 typedef struct path_sample {
     rgb radiance;
-    rgb spread;   /* half the difference of what the two halves of the irradiance cache say */
     rgb indirect; /* the part of it that was reflected more than once, mirrors not counted before the first point that
                      is none, or comes from the ambient value */
     rgb albedo;   /* reflectance of what was hit first: diffuse and specular, as seen from there; 1 with -i */
     path_control controls[PATH_CONTROLS];
     int control_count; /* so many are set */
+    bool cached;       /* some of it is what the irradiance cache says, the mean of its parts: */
+    rgb told[IRRADIANCE_PARTS];
     bool noisy;        /* random numbers were drawn: another sample may differ */
     bool integrated;   /* some of it is exact but for what graze/brdf_light.h allows */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall

@@ -31,7 +31,7 @@ typedef struct path {
     uint32_t first_group; /* that the sampler was at */
     double length; /* from the eye to the last vertex */
     rgb throughput, radiance;
-    rgb spread; /* as in path_sample */
+    rgb told[IRRADIANCE_PARTS]; /* as in path_sample, where it is `cached` */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
     rgb albedo; /* of the first point */
     rgb ambient_light; /* of the ambient value, before the path scattered */
@@ -40,6 +40,7 @@ typedef struct path {
     int depth;         /* all reflections so far */
     bool scattered;    /* whether any of them was not a mirror's */
     bool searching;    /* whether one may meet lights that no light sample finds */
+    bool cached;       /* whether any came from the irradiance cache */
     bool integrated;   /* whether some of the radiance is known without sampling */
     scattering last;
     known_lights known;

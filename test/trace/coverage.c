@@ -71,6 +71,11 @@ static const char *const half_hidden_lamp =
     "void light l 0 0 3 1 1 1 l polygon lamp 0 0 12 -1 -.5 2 -1 .5 2 1 .5 2 1 -.5 2\n"
     "void plastic k 0 0 5 0 0 0 0 0 k polygon blind 0 0 12 -2 -9 1 9 -9 1 9 9 1 2 9 1\n";
 
+/* A glow that is like a light as far as it reaches: to all points here, or to the nearer ones only. */
+#define BLIND "void plastic k 0 0 5 0 0 0 0 0 k polygon blind 0 0 12 -2 -9 1 9 -9 1 9 9 1 2 9 1\n"
+static const char *const half_hidden_glow =
+    "void glow l 0 0 4 1 1 1 50 l polygon lamp 0 0 12 -1 -.5 2 -1 .5 2 1 .5 2 1 -.5 2\n" BLIND;
+
 /* What of a polygon lies on the side of a plane through the origin that its normal points to. */
 static int clip(const vec3 *in, int count, vec3 normal, vec3 *out) {
     int kept = 0;
@@ -156,6 +161,7 @@ static const family families[] = {
     {"lamp in a grey ball", lamp_in_ball, wall_below_the_lamp, GRAZE_RADIANCE, GRAZE_STRATEGY_MIS, 4},
     {"small lamp in a grey ball", small_lamp_in_ball, wall_around_the_lamp, GRAZE_RADIANCE, GRAZE_STRATEGY_MIS, 4},
     {"penumbra", half_hidden_lamp, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_MIS, 0},
+    {"penumbra of a glow", half_hidden_glow, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_MIS, 0},
     {"penumbra by light samples", half_hidden_lamp, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_LIGHT, 0},
     {"penumbra by reflection", half_hidden_lamp, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_BRDF, 0},
     {"glossy floor", glossy_floor, glossy_under_sky, GRAZE_RADIANCE, GRAZE_STRATEGY_MIS, 1},
