@@ -111,6 +111,11 @@ static vec3 row(const rad_transform *t, int index, double scale) {
     return vec3_scale(scale, vec3_make(t->m[index][0], t->m[index][1], t->m[index][2]));
 }
 
+void material_own_direction(double *channels, int first, const material_owner *o, vec3 direction) {
+    const rad_transform *t = &o->backward;
+    set_vector(channels, first, o->moved ? vec3_scale(1 / t->scale, rad_transform_vector(t, direction)) : direction);
+}
+
 /* The transform's own channels, S, T, I, J, K. */
 static void set_transform(double *channels, const rad_transform *t) {
     channels[CAL_S - 1] = t->scale;
@@ -124,13 +129,10 @@ void material_channels(double channels[CAL_CHANNELS_MOST], const material_owner 
                        const material_function *second, const material_ray *ray) {
     const rad_transform *t = &o->backward;
     uint64_t wanted = (first ? cal_code_channels(first->code) : 0) | (second ? cal_code_channels(second->code) : 0);
-    double per_unit = 1 / t->scale;
     if (wanted & CAL_CHANNEL_BITS(CAL_DX, CAL_DZ))
-        set_vector(channels, CAL_DX,
-                   o->moved ? vec3_scale(per_unit, rad_transform_vector(t, ray->direction)) : ray->direction);
+        material_own_direction(channels, CAL_DX, o, ray->direction);
     if (wanted & CAL_CHANNEL_BITS(CAL_NX, CAL_NZ))
-        set_vector(channels, CAL_NX,
-                   o->moved ? vec3_scale(per_unit, rad_transform_vector(t, ray->normal)) : ray->normal);
+        material_own_direction(channels, CAL_NX, o, ray->normal);
     if (wanted & CAL_CHANNEL_BITS(CAL_PX, CAL_PZ))
         set_vector(channels, CAL_PX, o->moved ? rad_transform_point(t, ray->point) : ray->point);
     channels[CAL_T - 1] = ray->distance * t->scale;

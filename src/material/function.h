@@ -46,6 +46,8 @@ graze_status material_function_compile(material_function *, material_library *, 
 /* Fills in the channels of the ray that the functions use (null is let pass); others are left alone. */
 void material_channels(double channels[CAL_CHANNELS_MOST], const material_owner *, const material_function *first,
                        const material_function *second, const material_ray *);
+/* Sets three channels, from `first` on, to a direction as the functions see it. */
+void material_own_direction(double *channels, int first, const material_owner *, vec3 direction);
 /* Computes the values. False: a compute error, of which the user is told once for each primitive. */
 bool material_function_values(const material_function *, const material_owner *, const double *channels,
                               double *values);

@@ -248,3 +248,15 @@ graze_status material_chain_find(material_chain *chain, material_modifiers *m, i
     }
     return status;
 }
+
+graze_status material_modifiers_find(const material_modifier **first, material_modifiers *m, const rad_primitive *p,
+                                     const char *name) {
+    int modifier;
+    *first = NULL;
+    graze_status status = find_modifier(m, p, name, &modifier);
+    if (!status)
+        status = make_chain(m, modifier, 0, first);
+    if (!status && end_of(*first))
+        return rad_primitive_error(&m->report, p, "'%.64s' is a material, not a pattern", name);
+    return status;
+}

@@ -36,6 +36,10 @@ material_modifiers *material_modifiers_create(const rad_primitive *, size_t coun
 void material_modifiers_destroy(material_modifiers *); /* null is let pass */
 material_library *material_modifiers_library(material_modifiers *);
 
+/* The patterns and textures of that name, the latest before the primitive; null for void. Materials are errors. */
+graze_status material_modifiers_find(const material_modifier **, material_modifiers *, const rad_primitive *,
+                                     const char *name);
+
 /* What a surface of this modifier (a primitive's index) is made of. */
 typedef struct material_chain {
     int material; /* the primitive that is its material, or the mixture of materials; RAD_VOID: there is none */

@@ -64,23 +64,16 @@ graze_status material_reflection_compile(const material_reflection **result, mat
     return has_data ? compile_data(made, library, p, channels) : compile_function(made, library, p, channels);
 }
 
-static void set_direction(double *channels, int first, const material_owner *o, vec3 v) {
-    vec3 own = o->moved ? vec3_scale(1 / o->backward.scale, rad_transform_vector(&o->backward, v)) : v;
-    channels[first - 1] = own.x;
-    channels[first] = own.y;
-    channels[first + 1] = own.z;
-}
-
 double material_reflection_value(const material_reflection *r, const material_reflection_point *at, vec3 light) {
     double channels[CAL_CHANNELS_MOST], where[RAD_DATA_DIMENSIONS], value;
     const material_owner *o = &r->owner;
     material_channels(channels, o, &r->value, r->data ? &r->places : NULL, &at->ray);
-    set_direction(channels, CAL_NXP, o, at->normal);
+    material_own_direction(channels, CAL_NXP, o, at->normal);
     channels[CAL_RDOTP - 1] = -vec3_dot(at->ray.direction, at->normal);
     channels[CAL_CRP - 1] = at->color.r;
     channels[CAL_CGP - 1] = at->color.g;
     channels[CAL_CBP - 1] = at->color.b;
-    set_direction(channels, LIGHT, o, light);
+    material_own_direction(channels, LIGHT, o, light);
     channels[LIGHT + ARGUMENTS - 2] = 0;
     if (r->data) {
         if (!material_function_values(&r->places, o, channels, where))

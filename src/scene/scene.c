@@ -56,6 +56,8 @@ static bool is_mirror(const scene_material *material) {
     graze_surface probe;
     if (material->emits || material->mixture || material->reflection)
         return false;
+    if (material->wgmd)
+        return material->wgmd->may_mirror;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
 }
@@ -113,6 +115,13 @@ static graze_status read_material(builder *b, scene_material *material, const ra
             return status;
         return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
     }
+    if (p->type == RAD_WGMDFUNC) {
+        graze_status status = need_modifiers(b);
+        if (status)
+            return status;
+        material->reflector.model = scene_choose_model(b->settings, p);
+        return material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
+    }
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
     if (status || !material_orients_by_function(p))
@@ -138,7 +147,7 @@ static int add_material(builder *b, int modifier) {
         fail(b, status);
         return MATERIAL_REFUSED;
     }
-    made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection;
+    made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection && !made.wgmd;
     scene->materials[scene->material_count] = made;
     scene->has_mirrors = scene->has_mirrors || is_mirror(&made);
     return (int)scene->material_count++;
@@ -170,7 +179,7 @@ static void check_orientation(const builder *b, const rad_primitive *surface, co
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
     if (!flat || material->emits || material->mixture || material->orientation || material->reflection ||
-        !material->reflector.has_orientation)
+        material->wgmd || !material->reflector.has_orientation)
         return;
     vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
     graze_surface probe;

@@ -12,6 +12,7 @@
 #include "graze/scene.h"
 #include "material/orientation.h"
 #include "material/reflection.h"
+#include "material/wgmd.h"
 #include "rad/scene_file.h"
 #include "scene/light_tree.h"
 
@@ -54,6 +55,7 @@ typedef struct scene_material {
     scene_light light;                       /* if it emits: what the material says of a light */
     const material_orientation *orientation; /* by functions, or null */
     const material_reflection *reflection;   /* the same; `reflector` is then not set */
+    const material_wgmd *wgmd;               /* the same; `reflector` has no more than the model */
     const material_modifier *modifiers;      /* patterns and textures, or null */
     const material_modifier *mixture;        /* or null: */
     int fore, back;                          /* indices into materials */

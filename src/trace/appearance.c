@@ -11,8 +11,8 @@ static material_ray ray_of(const path_hit *hit, double length) {
                           .last_distance = hit->distance};
 }
 
-static material_effect add_effect(const scene_material *m, const material_ray *ray, material_effect before) {
-    material_effect e = material_modify(m->modifiers, ray);
+static material_effect add_effect(const material_modifier *modifiers, const material_ray *ray, material_effect before) {
+    material_effect e = material_modify(modifiers, ray);
     return (material_effect){rgb_multiply(before.color, e.color), vec3_add(before.perturbation, e.perturbation)};
 }
 
@@ -85,7 +85,8 @@ static rgb blend(double share, rgb a, rgb b) {
 static bool blend_vertices(vertex *v, double share, const vertex *fore, const vertex *back) {
     const graze_surface *a = &fore->shading, *b = &back->shading;
     bool one_lobe = a->specular_lobe == GRAZE_LOBE_NONE || b->specular_lobe == GRAZE_LOBE_NONE;
-    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel || (!one_lobe && !have_same_lobe(fore, back)))
+    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel ||
+        (!one_lobe && !have_same_lobe(fore, back)))
         return false;
     *v = a->specular_lobe == GRAZE_LOBE_NONE ? *back : *fore;
     v->shading.diffuse = blend(share, a->diffuse, b->diffuse);
@@ -102,11 +103,43 @@ static bool draw(const path *p, double share) {
     return random[0] < share;
 }
 
+/* One surface where both parts have the same normal, as they mostly do; else one of them is drawn, for both. */
+static void prepare_wgmd(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
+                         material_effect before, vertex *v) {
+    const material_wgmd *w = m->wgmd;
+    material_effect own = m->modifiers ? add_effect(m->modifiers, ray, before) : before;
+    material_effect shine = w->specular_inherits ? own : add_effect(w->specular_modifiers, ray, before);
+    const material_wgmd_point at = {.ray = *ray,
+                                    .model = m->reflector.model,
+                                    .diffuse_normal = lean(hit, &own),
+                                    .specular_normal = lean(hit, &shine),
+                                    .diffuse_color = colored(rgb_gray(1), own.color),
+                                    .specular_color = colored(rgb_gray(1), shine.color)};
+    graze_surface diffuse, specular;
+    material_wgmd_prepare(w, &at, &diffuse, &specular);
+    v->function = NULL;
+    v->shading = specular;
+    v->shading.diffuse = diffuse.diffuse;
+    if (!is_same(at.diffuse_normal, at.specular_normal)) {
+        v->drawn = true;
+        v->shading = draw(p, 0.5) ? diffuse : specular;
+        v->shading.diffuse = rgb_scale(2, v->shading.diffuse);
+        v->shading.specular = rgb_scale(2, v->shading.specular);
+    }
+    v->leans = !is_same(v->shading.n, v->normal);
+    const graze_material threshold = {.specularity = rgb_brightness(specular.specular)};
+    vertex_find_ambient(p, v, &threshold);
+}
+
 static void prepare(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
                     material_effect e, vertex *v) {
     const scene_material *materials = p->context->scene->materials;
+    if (m->wgmd) {
+        prepare_wgmd(p, hit, ray, m, e, v);
+        return;
+    }
     if (m->modifiers)
-        e = add_effect(m, ray, e);
+        e = add_effect(m->modifiers, ray, e);
     if (m->reflection) {
         prepare_function(hit, ray, m->reflection, &e, v);
         return;
@@ -140,7 +173,7 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
     material_effect e = {.color = {1, 1, 1}};
     for (;;) {
         if (m->modifiers)
-            e = add_effect(m, &ray, e);
+            e = add_effect(m->modifiers, &ray, e);
         if (!m->mixture)
             return lean(hit, &e);
         m = &scene->materials[material_mixture_share(m->mixture, &ray) >= 0.5 ? m->fore : m->back];
