@@ -49,7 +49,7 @@ material_modifiers *material_modifiers_create(const rad_primitive *primitives, s
     *m = (material_modifiers){.primitives = primitives, .count = count};
     m->report = report ? *report : (graze_report){NULL, NULL};
     m->library = material_library_create(report);
-    m->made = calloc(count + 1, sizeof *m->made);
+    m->made = calloc(count + 1, sizeof(material_modifier *));
     m->failed = calloc(count + 1, sizeof *m->failed);
     if (m->library && m->made && m->failed)
         return m;
@@ -95,7 +95,7 @@ static graze_status find_modifier(const material_modifiers *m, const rad_primiti
     return rad_primitive_error(&m->report, p, "there is no modifier '%.64s' before it", name);
 }
 
-static graze_status make_modifier(material_modifiers *, int primitive, int depth, material_modifier **);
+static graze_status make_modifier(material_modifiers *, int index, int depth, material_modifier **result);
 
 /* The whole chain that begins with a modifier, compiled. */
 static graze_status make_chain(material_modifiers *m, int modifier, int depth, const material_modifier **first) {
@@ -176,19 +176,21 @@ static graze_status compile_expressions(material_modifiers *m, material_function
 /* Reads the data; *dimensions is how many there are. */
 static graze_status read_data(material_modifiers *m, material_modifier *made, const layout *l, int *dimensions) {
     const rad_primitive *p = made->primitive;
-    graze_status status = GRAZE_OK;
+    graze_status status;
     made->data_count = l->data_count;
     *dimensions = 2;
     if (l->picture)
         return material_library_picture(m->library, p->strings[l->data], p, &made->picture);
-    for (int i = 0; i < l->data_count && !status; i++) {
+    status = material_library_data(m->library, p->strings[l->data], p, &made->data[0]);
+    if (status)
+        return status;
+    *dimensions = made->data[0]->dimensions;
+    for (int i = 1; i < l->data_count && !status; i++) {
         status = material_library_data(m->library, p->strings[l->data + i], p, &made->data[i]);
-        if (!status && made->data[i]->dimensions != made->data[0]->dimensions)
-            status = rad_primitive_error(&m->report, p, "its data files have %d and %d dimensions",
-                                         made->data[0]->dimensions, made->data[i]->dimensions);
+        if (!status && made->data[i]->dimensions != *dimensions)
+            status = rad_primitive_error(&m->report, p, "its data files have %d and %d dimensions", *dimensions,
+                                         made->data[i]->dimensions);
     }
-    if (!status)
-        *dimensions = made->data[0]->dimensions;
     return status;
 }
 

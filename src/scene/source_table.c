@@ -55,8 +55,9 @@ static void fill_row(void *user, size_t row, int worker) {
     for (size_t column = 0; column < t->columns; column++) {
         double looks[LOOKS * LOOKS], mean = 0;
         for (int k = 0; k < LOOKS * LOOKS; k++) {
-            double height = ((double)row + (k / LOOKS + 0.5) / LOOKS) / (double)t->rows;
-            double turn = ((double)column + (k % LOOKS + 0.5) / LOOKS) / (double)t->columns;
+            int down = k / LOOKS, across = k % LOOKS;
+            double height = ((double)row + (down + 0.5) / LOOKS) / (double)t->rows;
+            double turn = ((double)column + (across + 0.5) / LOOKS) / (double)t->columns;
             rgb radiance = radiance_towards(f->light, direction_at(t, height, turn));
             f->sums[row] = rgb_add(f->sums[row], radiance);
             looks[k] = rgb_brightness(radiance);

@@ -27,7 +27,8 @@ static graze_scene *source_scene(const char *function, const char *source) {
     graze_scene *scene = scene_from_text(text);
     if (!scene)
         fail_msg("%s", messages);
-    assert_non_null(scene->lights[0].table);
+    else
+        assert_non_null(scene->lights[0].table);
     return scene;
 }
 
