@@ -125,6 +125,7 @@ FUZZ_grid := $(BUILD)/obj/tools/brdfeval/grid.o $(BUILD)/obj/tools/brdfeval/eval
 FUZZ_FLAGS_records := -Wl,--wrap=read,--wrap=poll
 FUZZ_BASIS_measurements := fit
 FUZZ_BASIS_cal := cal
+FUZZ_BASIS_data := rad
 $(BUILD)/test/fuzz/replay.o: test/fuzz/replay.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -c -o $@ $<

@@ -124,25 +124,28 @@ static graze_status read_values(scanner *s, rad_data *data) {
     return GRAZE_OK;
 }
 
-graze_status rad_data_read(rad_data *data, arena *memory, const char *path, const char *name, const place *where,
-                           const graze_report *report) {
-    whole_file text;
-    graze_status status = whole_file_read_path(&text, path, name, where, report);
-    if (status)
-        return status;
-    scanner s = {.next = text.bytes,
-                 .end = text.bytes + text.length,
-                 .line_start = text.bytes,
+graze_status rad_data_parse(rad_data *data, arena *memory, const char *text, size_t length, const char *name,
+                            const place *where, const graze_report *report) {
+    scanner s = {.next = text,
+                 .end = text + length,
+                 .line_start = text,
                  .where = {.file = name, .line = 1, .parent = where},
                  .report = report,
                  .memory = memory};
     size_t dimensions = 0;
-    status = read_count(&s, "the number of dimensions", 1, RAD_DATA_DIMENSIONS, &dimensions);
+    graze_status status = read_count(&s, "the number of dimensions", 1, RAD_DATA_DIMENSIONS, &dimensions);
     data->dimensions = (int)dimensions;
     for (int d = 0; d < data->dimensions && !status; d++)
         status = read_axis(&s, &data->axes[d]);
+    return status ? status : read_values(&s, data);
+}
+
+graze_status rad_data_read(rad_data *data, arena *memory, const char *path, const char *name, const place *where,
+                           const graze_report *report) {
+    whole_file text;
+    graze_status status = whole_file_read_path(&text, path, name, where, report);
     if (!status)
-        status = read_values(&s, data);
+        status = rad_data_parse(data, memory, text.bytes, text.length, name, where, report);
     free(text.bytes);
     return status;
 }

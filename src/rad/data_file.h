@@ -25,6 +25,10 @@ typedef struct rad_data {
 graze_status rad_data_read(rad_data *, arena *, const char *path, const char *name, const place *where,
                            const graze_report *);
 
+/* The same of a text, which need not last. */
+graze_status rad_data_parse(rad_data *, arena *, const char *text, size_t length, const char *name, const place *where,
+                            const graze_report *);
+
 /* The values at a point, one coordinate a dimension, of each of `count` planes over the grid (of a data file: its
  * `values`): linear in each coordinate. Up to one step outside of the grid they go on linearly, and beyond that fall
  * off as Radiance's do: by the reciprocal of the distance. Finite for finite coordinates below 1e150. */

@@ -33,6 +33,13 @@ static void check_code(const cal_code *code) {
         }
         if (outcomes[0] == CAL_FAILED)
             break;
+        /* Less memory is enough, or said not to be. */
+        bool cramped;
+        double value = NAN;
+        memset(memory, 0x7f, size);
+        cal_outcome outcome =
+            cal_evaluate_within(code, channels[i], &value, memory, size < 2048 ? size : 2048, &cramped);
+        MUST(cramped ? size > 2048 : outcome == outcomes[0] && memcmp(&value, &values[0], sizeof value) == 0);
         MUST(outcomes[0] == outcomes[1] && memcmp(&values[0], &values[1], sizeof values[0]) == 0);
     }
     free(memory);
