@@ -139,6 +139,28 @@ static void models_are_for_materials_that_reflect(void **state) {
     }
 }
 
+static void nothing_is_loaded_for_patterns_that_are_not_there(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text("void brightfunc unused 2 Px none.cal 0 0 void plastic m 0 0 5 1 1 1 0 0 "
+                                         "m sphere s 0 0 4 0 0 0 1");
+    if (!scene)
+        fail_msg("%s", messages);
+    else
+        assert_null(scene->modifiers);
+    graze_scene_destroy(scene);
+}
+
+static void mixtures_are_checked(void **state) {
+    (void)state;
+    assert_refused("void plastic p 0 0 5 1 1 1 0 0 void mixfunc m 4 p void .5 . 0 0 m sphere s 0 0 4 0 0 0 1",
+                   ":1:32: mixfunc m", "void is not supported yet");
+    assert_refused("void plastic p 0 0 5 1 1 1 0 0 void light l 0 0 3 1 1 1 void mixfunc m 4 p l .5 . 0 0 "
+                   "m sphere s 0 0 4 0 0 0 1",
+                   "mixfunc m", "shines");
+    assert_refused("void mixfunc m 4 void void .5 . 0 0 m sphere s 0 0 4 0 0 0 1", ":1:1: mixfunc m",
+                   "there is no material behind it");
+}
+
 static void an_empty_scene_is_a_scene(void **state) {
     (void)state;
     graze_scene *scene = scene_from_text("# nothing here\n");
@@ -157,6 +179,8 @@ int main(void) {
         cmocka_unit_test(a_surface_across_its_orientation_is_warned_about),
         cmocka_unit_test(models_are_chosen_most_specifically),
         cmocka_unit_test(models_are_for_materials_that_reflect),
+        cmocka_unit_test(nothing_is_loaded_for_patterns_that_are_not_there),
+        cmocka_unit_test(mixtures_are_checked),
         cmocka_unit_test(an_empty_scene_is_a_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,131 @@
+/* Patterns, textures, mixtures and functions along paths: answers that follow from those of plain materials, the same
+ * ones from all strategies. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/vector.h"
+#include "graze/trace.h"
+#include "support/scene_text.h"
+
+/* A floor of a modifier named `m`, seen under a large lamp and a glow, beside a wall. */
+static const char *const around = "void light l 0 0 3 4 3 2 l sphere lamp 0 0 4 1 1 2 .7 void glow g 0 0 4 1 2 3 0 g "
+                                  "ring sky 0 0 8 -1 0 2 0 0 -1 0 1 "
+                                  "void plastic w 0 0 5 .5 .6 .7 0 0 w polygon wall 0 0 12 -2 2 0 2 2 0 2 2 2 -2 2 2 "
+                                  "m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0";
+
+typedef struct answer {
+    rgb value, error;
+} answer;
+
+static answer answer_of(const char *materials, graze_strategy strategy, int bounces, double x) {
+    char text[3000];
+    snprintf(text, sizeof text, "%s %s", materials, around);
+    graze_scene *scene = scene_from_text(text);
+    if (!scene)
+        fail_msg("%s: %s", materials, messages);
+    graze_trace_settings settings = graze_trace_defaults();
+    settings.strategy = strategy;
+    settings.ambient_bounces = bounces;
+    settings.samples = 20000;
+    const vec3 eye = {0.2, -2, 1.5};
+    const graze_ray ray = {.origin = eye, .direction = vec3_subtract(vec3_make(x, 0.2, 0), eye)};
+    graze_answer found;
+    graze_trace(scene, &settings, &ray, 7, &found, NULL);
+    graze_scene_destroy(scene);
+    return (answer){found.value, found.standard_error};
+}
+
+static void assert_near(const char *what, answer a, rgb expected, rgb error) {
+    double difference[] = {a.value.r - expected.r, a.value.g - expected.g, a.value.b - expected.b};
+    double variance[] = {a.error.r * a.error.r + error.r * error.r, a.error.g * a.error.g + error.g * error.g,
+                         a.error.b * a.error.b + error.b * error.b};
+    for (int c = 0; c < 3; c++)
+        if (!(fabs(difference[c]) <= 4.5 * sqrt(variance[c]) + 1e-9))
+            fail_msg("%s: %g off by %g +- %g", what, rgb_brightness(expected), difference[c], sqrt(variance[c]));
+}
+
+#define TEXTURE "void texfunc t 4 .3*sin(9*Px) .2 .1 . 0 0 "
+static const char *const materials[] = {
+    "void colorfunc p 4 .5+.4*sin(9*Px) .7 Py+.4 . 0 0 p plastic m 0 0 5 .8 .8 .8 .1 .2",
+    TEXTURE "t plastic m 0 0 5 .8 .7 .6 .1 .2",
+    TEXTURE "t metal m 0 0 5 .8 .7 .6 .9 .3",
+    TEXTURE "t metal m 0 0 5 .8 .7 .6 .9 0",
+    "void plastic a 0 0 5 .8 .2 .2 0 0 void metal b 0 0 5 .2 .3 .7 .8 .3 void mixfunc m 4 a b .4 . 0 0",
+    "void plastic a 0 0 5 .8 .2 .2 .1 .1 void metal b 0 0 5 .2 .3 .7 .8 .3 void mixfunc m 4 a b .4 . 0 0",
+    TEXTURE "t plastic a 0 0 5 .8 .2 .2 .1 .1 void metal b 0 0 5 .2 .3 .7 .8 0 void mixfunc m 4 a b .4 . 0 0",
+    "void plasfunc m 2 min . 0 4 .5 .4 .3 .3",
+    TEXTURE "t WGMDfunc m 13 void .4 .3 .2 void 0 0 0 void 1 Px 0 . 0 9 .5 .3 .2 0 0 0 0 0 0",
+};
+
+static void strategies_agree(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
+        for (int bounces = 0; bounces <= 1; bounces++) {
+            answer both = answer_of(materials[i], GRAZE_STRATEGY_MIS, bounces, 0.1);
+            answer light = answer_of(materials[i], GRAZE_STRATEGY_LIGHT, bounces, 0.1);
+            answer reflection = answer_of(materials[i], GRAZE_STRATEGY_BRDF, bounces, 0.1);
+            assert_true(rgb_brightness(both.value) > 0);
+            assert_near(materials[i], light, both.value, both.error);
+            assert_near(materials[i], reflection, both.value, both.error);
+        }
+}
+
+/* A mixture answers with the mean of its materials, whether one of both is drawn or not. */
+static void mixtures_are_means(void **state) {
+    (void)state;
+    static const struct {
+        const char *fore, *back; /* types, and what follows the name */
+        const char *fore_values, *back_values;
+    } pairs[] = {
+        {"plastic", "plastic", "0 0 5 .8 .2 .2 0 0", "0 0 5 .1 .5 .2 0 0"},
+        {"plastic", "metal", "0 0 5 .8 .2 .2 0 0", "0 0 5 .1 .5 .2 .7 .3"},
+        {"plastic", "metal", "0 0 5 .8 .2 .2 .1 .1", "0 0 5 .1 .5 .2 .7 .3"},
+        {"plastic", "metal", "0 0 5 .8 .2 .2 .1 0", "0 0 5 .1 .5 .2 .7 .3"},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        for (int bounces = 0; bounces <= 1; bounces++) {
+            char fore[200], back[200], both[400];
+            snprintf(fore, sizeof fore, "void %s m %s", pairs[i].fore, pairs[i].fore_values);
+            snprintf(back, sizeof back, "void %s m %s", pairs[i].back, pairs[i].back_values);
+            snprintf(both, sizeof both, "void %s a %s void %s b %s void mixfunc m 4 a b .3 . 0 0", pairs[i].fore,
+                     pairs[i].fore_values, pairs[i].back, pairs[i].back_values);
+            answer f = answer_of(fore, GRAZE_STRATEGY_MIS, bounces, 0.3);
+            answer b = answer_of(back, GRAZE_STRATEGY_MIS, bounces, 0.3);
+            rgb mean = rgb_add_scaled(rgb_scale(0.3, f.value), 0.7, b.value);
+            rgb error = rgb_add_scaled(rgb_scale(0.3, f.error), 0.7, b.error);
+            assert_near(both, answer_of(both, GRAZE_STRATEGY_MIS, bounces, 0.3), mean, error);
+        }
+}
+
+/* A reflectance function of which no part counts is a diffuse surface. */
+static void a_function_without_weight_is_diffuse(void **state) {
+    (void)state;
+    answer plain = answer_of("void plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    answer function = answer_of("void metfunc m 2 select . 0 4 .5 .5 .5 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    assert_near("no function", function, plain.value, plain.error);
+    function =
+        answer_of("void brightfunc p 2 2 . 0 0 p metfunc m 2 if . 0 4 .25 .25 .25 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    assert_near("no function, a pattern", function, plain.value, plain.error);
+}
+
+static void a_pattern_of_1_changes_nothing(void **state) {
+    (void)state;
+    answer plain = answer_of("void plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    answer one = answer_of("void brightfunc p 2 1 . 0 0 p plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    assert_memory_equal(&plain, &one, sizeof plain);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(mixtures_are_means),
+        cmocka_unit_test(a_function_without_weight_is_diffuse),
+        cmocka_unit_test(a_pattern_of_1_changes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
