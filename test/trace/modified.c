@@ -12,11 +12,13 @@
 #include "graze/trace.h"
 #include "support/scene_text.h"
 
-/* A floor of a modifier named `m`, seen under a large lamp and a glow, beside a wall. */
-static const char *const around = "void light l 0 0 3 4 3 2 l sphere lamp 0 0 4 1 1 2 .7 void glow g 0 0 4 1 2 3 0 g "
-                                  "ring sky 0 0 8 -1 0 2 0 0 -1 0 1 "
-                                  "void plastic w 0 0 5 .5 .6 .7 0 0 w polygon wall 0 0 12 -2 2 0 2 2 0 2 2 2 -2 2 2 "
-                                  "m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0";
+/* A floor of a modifier named `m`, seen under a large lamp and a glow, beside a wall and a lamp that goes through it.
+ */
+static const char *const around =
+    "void light l 0 0 3 4 3 2 l sphere lamp 0 0 4 1 1 2 .7 l sphere low 0 0 4 1 .5 .1 .3 void glow g 0 0 4 1 2 3 0 g "
+    "ring sky 0 0 8 -1 0 2 0 0 -1 0 1 "
+    "void plastic w 0 0 5 .5 .6 .7 0 0 w polygon wall 0 0 12 -2 2 0 2 2 0 2 2 2 -2 2 2 "
+    "m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0";
 
 typedef struct answer {
     rgb value, error;
@@ -58,7 +60,7 @@ static const char *const materials[] = {
     "void plastic a 0 0 5 .8 .2 .2 0 0 void metal b 0 0 5 .2 .3 .7 .8 .3 void mixfunc m 4 a b .4 . 0 0",
     "void plastic a 0 0 5 .8 .2 .2 .1 .1 void metal b 0 0 5 .2 .3 .7 .8 .3 void mixfunc m 4 a b .4 . 0 0",
     TEXTURE "t plastic a 0 0 5 .8 .2 .2 .1 .1 void metal b 0 0 5 .2 .3 .7 .8 0 void mixfunc m 4 a b .4 . 0 0",
-    "void plasfunc m 2 min . 0 4 .5 .4 .3 .3",
+    "void plasfunc m 2 max . 0 4 .5 .4 .3 .3",
     TEXTURE "t WGMDfunc m 13 void .4 .3 .2 void 0 0 0 void 1 Px 0 . 0 9 .5 .3 .2 0 0 0 0 0 0",
 };
 
