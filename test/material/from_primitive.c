@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "material/from_primitive.h"
+#include "material/orientation.h"
 
 typedef struct log_of_report {
     int errors, warnings;
@@ -97,13 +98,21 @@ static void words_that_are_no_transform_are_refused(void **state) {
     assert_refused(RAD_METAL2, 7, strings, 6, aniso, "sideways");
 }
 
-static void the_function_language_is_refused(void **state) {
+/* What they say is material/orientation.h's business. */
+static void orientations_by_functions_are_left_null(void **state) {
     (void)state;
     const char *const words[][4] = {{"Nx", "0", "1", "."},  {"1", "1+1", "1", "."},      {"1", "0", "", "."},
                                     {"1", "0", "nan", "."}, {"1", "0", "0", "wood.cal"}, {"1", "0", "0", ""}};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        assert_refused(RAD_PLASTIC2, 4, words[i], 6, aniso,
-                       "needs the function language, which this version does not read yet");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const rad_primitive p = {.type = RAD_PLASTIC2, .id = "skin", .string_count = 4, .strings = words[i]};
+        graze_material m;
+        log_of_report log;
+        assert_true(material_orients_by_function(&p));
+        assert_int_equal(convert(&m, &log, RAD_PLASTIC2, 4, words[i], 6, aniso), GRAZE_OK);
+        assert_int_equal(log.errors + log.warnings, 0);
+        assert_int_equal(m.has_orientation, 1);
+        assert_true(vec3_max_abs(m.orientation) == 0);
+    }
 }
 
 static void wrong_counts_are_refused(void **state) {
@@ -191,7 +200,7 @@ int main(void) {
         cmocka_unit_test(anisotropic_types_are_read),
         cmocka_unit_test(the_transform_turns_the_orientation),
         cmocka_unit_test(words_that_are_no_transform_are_refused),
-        cmocka_unit_test(the_function_language_is_refused),
+        cmocka_unit_test(orientations_by_functions_are_left_null),
         cmocka_unit_test(wrong_counts_are_refused),
         cmocka_unit_test(negative_arguments_are_refused),
         cmocka_unit_test(roughness_out_of_its_range_is_refused),
