@@ -1,5 +1,5 @@
-/* Materials whose reflection of lights is a function: plasfunc, metfunc, plasdata, metdata. As in Radiance it stands for
- * lights alone; what other surfaces send is reflected diffusely, by the whole colour. */
+/* Materials whose reflection of lights is a function: plasfunc, metfunc, plasdata, metdata. As in Radiance it stands
+ * for lights alone; what other surfaces send is reflected diffusely, by the whole colour. */
 #ifndef MATERIAL_REFLECTION_H
 #define MATERIAL_REFLECTION_H
 

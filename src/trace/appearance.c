@@ -85,7 +85,8 @@ static rgb blend(double share, rgb a, rgb b) {
 static bool blend_vertices(vertex *v, double share, const vertex *fore, const vertex *back) {
     const graze_surface *a = &fore->shading, *b = &back->shading;
     bool one_lobe = a->specular_lobe == GRAZE_LOBE_NONE || b->specular_lobe == GRAZE_LOBE_NONE;
-    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel || (!one_lobe && !have_same_lobe(fore, back)))
+    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel ||
+        (!one_lobe && !have_same_lobe(fore, back)))
         return false;
     *v = a->specular_lobe == GRAZE_LOBE_NONE ? *back : *fore;
     v->shading.diffuse = blend(share, a->diffuse, b->diffuse);
