@@ -27,7 +27,8 @@ graze_status geometry_prepare_sights(geometry *, const graze_report *);
  * for all where the answer is CLEAR, true for all where it is BLOCKED; up to rays that touch an edge within roundings.
  * Always MIXED for the sides of cones, inward spheres, polygons of more than 16 corners, and sources of half the sky
  * and more. What may meet copies of groups is MIXED: only their boxes are looked at. So is what takes too many steps,
- * which bounds the time: in meshes of 100,000 and of a million triangles such an answer took 1.4 and 2.6 microseconds. */
+ * which bounds the time: in meshes of 100,000 and of a million triangles such an answer took 1.4 and 2.6 microseconds.
+ */
 geometry_visibility geometry_sight_of(const geometry *, const geometry_sight *);
 
 /* Whether anything that does not shine stands above the point's horizon, or may. */

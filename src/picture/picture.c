@@ -123,7 +123,8 @@ static void render_pixel(rendering *p, int column, int row) {
         return;
     estimate_parts parts = {{0, 0, 0}, {0, 0, 0}};
     bool layers = p->settings.content == PICTURE_LAYERS;
-    film_pixel result = {.answer = estimate_pixel(&(pixel){.picture = p, .column = column, .row = row}, &p->trace, layers ? &parts : NULL)};
+    film_pixel result = {.answer = estimate_pixel(&(pixel){.picture = p, .column = column, .row = row}, &p->trace,
+                                                  layers ? &parts : NULL)};
     result.albedo = parts.albedo;
     result.indirect = parts.indirect;
     result.reached = relative_error(&result.answer, p->trace.floor);

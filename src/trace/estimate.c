@@ -39,7 +39,7 @@ typedef struct half {
     bool integrated;    /* whether light was integrated in any sample */
     int control_count;
     bool with_parts;
-    estimate_parts parts;                            /* sums */
+    estimate_parts parts; /* sums */
     bool cached;
     rgb told[IRRADIANCE_PARTS];                      /* sums */
     double lit[PATH_CONTROLS], whole[PATH_CONTROLS]; /* sums of the controls' */
@@ -307,8 +307,8 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
         variance = rgb_add(variance, variance_of_cache(halves, share));
     answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
     double unseen = unseen_shadows(halves), brightness = rgb_brightness(answer->value);
-    if (unseen > 0 && brightness > 0) {
-        rgb part = rgb_scale(fmin(unseen / brightness, 1), answer->value);
+    if (unseen > 0) {
+        rgb part = brightness > 0 ? rgb_scale(fmin(unseen / brightness, 1), answer->value) : rgb_gray(unseen);
         variance = rgb_add(variance, rgb_multiply(part, part));
     }
     answer->standard_error = with_known_error(variance, answer->value, halves);

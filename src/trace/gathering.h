@@ -18,9 +18,9 @@ typedef struct vertex {
     const material_reflection *function; /* lights are reflected by it, beside diffusely; null: none */
     material_reflection_point function_point;
     rgb function_color; /* to multiply its values by */
-    bool leans;      /* the normal of `shading` is not the surface's own */
-    bool drawn;      /* which material of a mixture the surface has here was drawn at random */
-    bool no_ambient; /* diffuse light from surfaces is not followed here (-ae, -ai) */
+    bool leans;         /* the normal of `shading` is not the surface's own */
+    bool drawn;         /* which material of a mixture the surface has here was drawn at random */
+    bool no_ambient;    /* diffuse light from surfaces is not followed here (-ae, -ai) */
 } vertex;
 
 /* Probabilities of going on with each lobe; they sum to at most 1. Where a lobe `ends`, the ray only looks for lights

@@ -27,6 +27,8 @@ enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 
 #define NOISE_OF_ERROR 5.0
 #define FEWEST_PATHS   16
 #define MOST_PATHS     1024
+/* Where they have found less than the floor there may be more than they have found: the less, the more of them. */
+#define PATHS_BELIEVED 128
 
 /* Of what is in no cell. */
 #define NO_KEY UINT64_MAX
@@ -187,12 +189,15 @@ static bool is_in_one_place(const filling *f, const cell *c) {
     return true;
 }
 
-/* The paths of a cell, half of which decide how many the others are (trace/estimate.h says why). */
-typedef struct paths {
-    size_t taken; /* in each part */
-    rgb sum[CELL_PARTS / 2];
+/* Half of a cell's paths, a sequence of its own; the other half decides how many they are (trace/estimate.h says why).
+ * Parts are runs of equal length in it. */
+enum { HALVES = 2, HALF_PARTS = CELL_PARTS / HALVES };
+typedef struct half_cell {
+    uint64_t key;
+    size_t taken;
+    rgb sum[HALF_PARTS];
     double brightness, squares; /* sums of all */
-} paths;
+} half_cell;
 
 /* Ends in the golden section's order: however many, they are evenly spread over all of a cell's. */
 static const irradiance_record *record_at(const filling *f, const cell *c, size_t number) {
@@ -201,35 +206,37 @@ static const irradiance_record *record_at(const filling *f, const cell *c, size_
     return &f->records[c->first + (index < c->count ? index : 0)].record;
 }
 
-static void take_path(const filling *f, const cell *c, path_memory *memory, paths *p, int half, int part) {
+static void take_path(const filling *f, const irradiance_record *from, path_memory *memory, half_cell *h, int part) {
     path_context context = f->context;
     context.memory = memory;
-    int all = half * (CELL_PARTS / 2) + part;
-    uint64_t key = sampler_key(context.settings->seed, c->key, 0x2000000u + f->number * CELL_PARTS + (uint32_t)all);
-    sampler points = sampler_start(key, (uint32_t)p->taken);
-    path_sample sample = path_irradiance_at(&context, record_at(f, c, p->taken * CELL_PARTS + (size_t)all), &points);
+    sampler points = sampler_start(h->key, (uint32_t)h->taken++);
+    path_sample sample = path_irradiance_at(&context, from, &points);
     rgb value = sample.radiance;
     for (int k = 0; k < sample.control_count; k++)
         value = rgb_add(value, sample.controls[k].difference);
     double brightness = rgb_brightness(value);
-    p->sum[part] = rgb_add(p->sum[part], value);
-    p->brightness += brightness;
-    p->squares += brightness * brightness;
+    h->sum[part] = rgb_add(h->sum[part], value);
+    h->brightness += brightness;
+    h->squares += brightness * brightness;
 }
 
-static void take_paths(const filling *f, const cell *c, path_memory *memory, paths *p, int half, size_t goal) {
-    for (; p->taken < goal; p->taken++)
-        for (int part = 0; part < CELL_PARTS / 2; part++)
-            take_path(f, c, memory, p, half, part);
+static void take_until(const filling *f, const cell *c, path_memory *memory, half_cell halves[HALVES], int half,
+                       size_t goal) {
+    half_cell *h = &halves[half];
+    size_t first = h->taken, run = (goal - first) / HALF_PARTS;
+    for (size_t i = first; i < goal; i++)
+        take_path(f, record_at(f, c, i * HALVES + (size_t)half), memory, h, (int)((i - first) / run));
 }
 
-/* Whether so many paths in each part are enough, as one half of them finds. */
-static bool is_enough(const filling *f, const paths *judge, size_t taken) {
+/* Whether so many paths of a half are enough, as the other finds. */
+static bool is_enough(const filling *f, const half_cell *judge, size_t taken) {
     const graze_trace_settings *s = f->context.settings;
-    double count = (double)(judge->taken * (CELL_PARTS / 2)), mean = judge->brightness / count;
+    double count = (double)judge->taken, mean = judge->brightness / count, floor = PI * s->floor;
     double variance = fmax(judge->squares - mean * judge->brightness, 0) / (count - 1);
-    double allowed = NOISE_OF_ERROR * s->error * fmax(mean, PI * s->floor);
-    return variance <= allowed * allowed * (double)(taken * CELL_PARTS);
+    double allowed = NOISE_OF_ERROR * s->error * fmax(mean, floor), all = (double)taken * HALVES;
+    if (all < PATHS_BELIEVED && all * mean < FEWEST_PATHS * floor)
+        return false;
+    return variance <= allowed * allowed * all;
 }
 
 static void fill_cell(void *user, size_t index, int worker) {
@@ -240,20 +247,20 @@ static void fill_cell(void *user, size_t index, int worker) {
     if (!c->whole)
         return;
     path_memory memory = {.alike = false};
-    paths halves[2] = {{.taken = 0}, {.taken = 0}};
-    bool enough[2] = {false, false};
-    for (size_t goal = FEWEST_PATHS / CELL_PARTS; goal <= MOST_PATHS / CELL_PARTS; goal *= 2) {
-        for (int i = 0; i < 2; i++)
+    half_cell halves[HALVES] = {{.taken = 0}, {.taken = 0}};
+    for (int i = 0; i < HALVES; i++)
+        halves[i].key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number * HALVES + (uint32_t)i);
+    bool enough[HALVES] = {false, false};
+    for (size_t goal = FEWEST_PATHS / HALVES; goal <= MOST_PATHS / HALVES && !(enough[0] && enough[1]); goal *= 2) {
+        for (int i = 0; i < HALVES; i++)
             if (!enough[i])
-                take_paths(f, c, &memory, &halves[i], i, goal);
-        for (int i = 0; i < 2; i++)
+                take_until(f, c, &memory, halves, i, goal);
+        for (int i = 0; i < HALVES; i++)
             enough[i] = enough[i] || is_enough(f, &halves[1 - i], halves[i].taken);
-        if (enough[0] && enough[1])
-            break;
     }
     for (int k = 0; k < CELL_PARTS; k++) {
-        const paths *p = &halves[k / (CELL_PARTS / 2)];
-        c->irradiance[k] = rgb_scale(1 / (double)p->taken, p->sum[k % (CELL_PARTS / 2)]);
+        const half_cell *h = &halves[k / HALF_PARTS];
+        c->irradiance[k] = rgb_scale((double)HALF_PARTS / (double)h->taken, h->sum[k % HALF_PARTS]);
     }
 }
 

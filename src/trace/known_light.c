@@ -1,13 +1,14 @@
 /* Light in closed form: exact where shadows are known, else a control variate. */
 #include "trace/known_light.h"
 
+#include "base/angle.h"
 #include "geometry/crossing.h"
 #include "geometry/shaft.h"
 #include "trace/emission.h"
 #include "trace/unshadowed.h"
 
 bool known_light_is_control(const path *p, int light) {
-    return light < PATH_FEW_LIGHTS && p->known.controls >> light & 1;
+    return light < PATH_FEW_LIGHTS && (p->known.controls | p->known.watched) >> light & 1;
 }
 
 bool known_light_is_settled(const path *p, int light) {
@@ -21,7 +22,8 @@ static path_control *control_of(path *p, int light) {
 void known_light_subtract(path *p, int light, rgb found, bool lit) {
     path_control *control = control_of(p, light);
     double brightness = rgb_brightness(found);
-    control->difference = rgb_add_scaled(control->difference, -1, found);
+    if (p->known.controls >> light & 1)
+        control->difference = rgb_add_scaled(control->difference, -1, found);
     control->whole += brightness;
     control->lit += lit ? brightness : 0;
 }
@@ -70,21 +72,35 @@ static void begin_controls(path *p, int count) {
         p->controls[p->control_count] = (path_control){{0, 0, 0}, 0, 0};
 }
 
+/* Of skies nobody can tell that nothing hides a part of them: that says nothing. */
+static bool is_small(const scene_light *light) {
+    return light->shape || light->half_angle < PI / 2;
+}
+
+/* Nothing is known of the light but that something may stand before a part of it. */
+static void watch(path *p, int light) {
+    p->known.watched |= 1u << light;
+    begin_controls(p, light + 1);
+}
+
 void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
-    p->known = (known_lights){0, 0, p->depth > 0};
+    p->known = (known_lights){.shared = p->depth > 0};
     if (!light_choice_is_every_one(lights) || p->scattered || p->context->settings->samples == 1)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
         bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
-        if (light_expectation(lights, i) == 0 || !has_one_role(light))
+        if (light_expectation(lights, i) == 0)
             continue;
         const path_memory_light found = look_at(p, v, i, glossy);
         if (found.seen == GEOMETRY_BLOCKED)
             p->known.settled |= 1u << i;
-        if (!found.integrated)
+        if (!found.integrated || !has_one_role(light)) {
+            if (found.seen == GEOMETRY_MIXED && !p->known.shared && is_small(light))
+                watch(p, i);
             continue;
+        }
         rgb diffuse = !ambient ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);
         rgb reflectance = rgb_scale(found.whole.diffuse, diffuse);
         if (glossy)

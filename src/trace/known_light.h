@@ -5,7 +5,7 @@
 
 #include "trace/path_state.h"
 
-/* Whether it is a control at the path's last vertex. */
+/* Whether it is a control at the path's last vertex, or one that only tells how much of it is hidden. */
 bool known_light_is_control(const path *, int light);
 /* Whether it has been added, and must not be found in other ways. */
 bool known_light_is_settled(const path *, int light);

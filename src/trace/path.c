@@ -67,7 +67,7 @@ static void follow(path *p, gathering *here) {
             direct_light_prepare(p, v, &here->lights);
             here->decided = !v->drawn;
         }
-        p->known.controls = p->known.settled = 0;
+        p->known.controls = p->known.settled = p->known.watched = 0;
         if (light_choice_is_possible(&here->lights) && !context->record) {
             if (!context->observer)
                 known_light_add(p, v, &here->lights);
@@ -85,7 +85,7 @@ static void follow(path *p, gathering *here) {
         observe_ray(p, v->point, &hit, found);
         if (!scattered)
             p->direct = p->radiance;
-        if (p->known.controls)
+        if (p->known.controls | p->known.watched)
             known_light_subtract_reflected(p, v, &hit, found);
         later.decided = false;
         if (!vertex_at_hit(p, &hit, &later.vertex) || take_from_cache(p, &hit, &later.vertex))
@@ -106,7 +106,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->ambient_depth = p->depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
-    p->known = (known_lights){0, 0, false};
+    p->known = (known_lights){.shared = false};
     p->integrated = p->cached = false;
     p->control_count = 0;
 }

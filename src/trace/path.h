@@ -27,8 +27,8 @@ typedef struct path_sample {
     int control_count; /* so many are set */
     bool cached;       /* some of it is what the irradiance cache says, the mean of its parts: */
     rgb told[IRRADIANCE_PARTS];
-    bool noisy;        /* random numbers were drawn: another sample may differ */
-    bool integrated;   /* some of it is exact but for what graze/brdf_light.h allows */
+    bool noisy;      /* random numbers were drawn: another sample may differ */
+    bool integrated; /* some of it is exact but for what graze/brdf_light.h allows */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall
                      */
 } path_sample;

@@ -21,7 +21,7 @@ typedef struct path_memory_light {
 
 /* Belongs to the estimate, whose paths come one after another, and begins as zeros but for `alike`. */
 typedef struct path_memory {
-    bool alike; /* all paths have the same first point */
+    bool alike;      /* all paths have the same first point */
     gathering first; /* where they do */
     path_memory_light lights[PATH_FEW_LIGHTS];
 } path_memory;

@@ -22,6 +22,7 @@ typedef struct scattering {
 typedef struct known_lights {
     unsigned controls; /* of these, what they would give without shadows: it is a control of what samples find */
     unsigned settled;  /* of these, all that they give: they are seen wholly, or not at all */
+    unsigned watched;  /* of these, that they may be seen in part: controls tell how much, no more */
     bool shared;       /* the controls are one for all */
 } known_lights;
 
@@ -29,7 +30,7 @@ typedef struct path {
     const path_context *context;
     sampler *sampler;
     uint32_t first_group; /* that the sampler was at */
-    double length; /* from the eye to the last vertex */
+    double length;        /* from the eye to the last vertex */
     rgb throughput, radiance;
     rgb told[IRRADIANCE_PARTS]; /* as in path_sample, where it is `cached` */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */

@@ -67,12 +67,11 @@ static question wall_around_the_lamp(const double random[3]) {
 }
 
 /* A lamp whose half a blind hides, with an edge that is oblique to those of the lamp. */
-static const char *const half_hidden_lamp =
-    "void light l 0 0 3 1 1 1 l polygon lamp 0 0 12 -1 -.5 2 -1 .5 2 1 .5 2 1 -.5 2\n"
-    "void plastic k 0 0 5 0 0 0 0 0 k polygon blind 0 0 12 -2 -9 1 9 -9 1 9 9 1 2 9 1\n";
-
-/* A glow that is like a light as far as it reaches: to all points here, or to the nearer ones only. */
 #define BLIND "void plastic k 0 0 5 0 0 0 0 0 k polygon blind 0 0 12 -2 -9 1 9 -9 1 9 9 1 2 9 1\n"
+static const char *const half_hidden_lamp =
+    "void light l 0 0 3 1 1 1 l polygon lamp 0 0 12 -1 -.5 2 -1 .5 2 1 .5 2 1 -.5 2\n" BLIND;
+
+/* A glow that is like a light as far as it reaches. */
 static const char *const half_hidden_glow =
     "void glow l 0 0 4 1 1 1 50 l polygon lamp 0 0 12 -1 -.5 2 -1 .5 2 1 .5 2 1 -.5 2\n" BLIND;
 
@@ -101,9 +100,9 @@ static double polygon_irradiance(const vec3 *corner, int count) {
     return fabs(sum) / 2;
 }
 
-static question sensor_in_penumbra(const double random[3]) {
+static question sensor_at(vec3 point) {
     /* Sensors stand 0.0001 above their point. */
-    vec3 point = {-0.6 + 1.2 * random[0], -0.5 + random[1], 0}, eye = {point.x, point.y, 1e-4};
+    vec3 eye = {point.x, point.y, 1e-4};
     const vec3 lamp[4] = {{-1, -0.5, 2}, {-1, 0.5, 2}, {1, 0.5, 2}, {1, -0.5, 2}};
     vec3 seen[4], visible[8];
     for (int i = 0; i < 4; i++)
@@ -111,6 +110,15 @@ static question sensor_in_penumbra(const double random[3]) {
     vec3 first = vec3_add_scaled((vec3){-2, -9, 1}, -1, eye), second = vec3_add_scaled((vec3){2, 9, 1}, -1, eye);
     int count = clip(seen, 4, vec3_cross(first, second), visible);
     return (question){{.origin = point, .direction = {0, 0, 1}}, polygon_irradiance(visible, count)};
+}
+
+static question sensor_in_penumbra(const double random[3]) {
+    return sensor_at((vec3){-0.6 + 1.2 * random[0], -0.5 + random[1], 0});
+}
+
+/* Some samples in a hundred meet the shadow, or none does. */
+static question sensor_at_edge(const double random[3]) {
+    return sensor_at((vec3){-1.2 + 0.4 * random[0], -0.3 + 0.6 * random[1], 0});
 }
 
 /* A floor with a rough lobe, under a sky that shines everywhere: its albedo. */
@@ -162,6 +170,7 @@ static const family families[] = {
     {"small lamp in a grey ball", small_lamp_in_ball, wall_around_the_lamp, GRAZE_RADIANCE, GRAZE_STRATEGY_MIS, 4},
     {"penumbra", half_hidden_lamp, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_MIS, 0},
     {"penumbra of a glow", half_hidden_glow, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_MIS, 0},
+    {"edge of a glow's penumbra", half_hidden_glow, sensor_at_edge, GRAZE_IRRADIANCE, GRAZE_STRATEGY_MIS, 0},
     {"penumbra by light samples", half_hidden_lamp, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_LIGHT, 0},
     {"penumbra by reflection", half_hidden_lamp, sensor_in_penumbra, GRAZE_IRRADIANCE, GRAZE_STRATEGY_BRDF, 0},
     {"glossy floor", glossy_floor, glossy_under_sky, GRAZE_RADIANCE, GRAZE_STRATEGY_MIS, 1},

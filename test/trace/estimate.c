@@ -186,9 +186,49 @@ static void stops_at_the_error_asked_for(void **state) {
     assert_true(loose.standard_error.r <= 0.01 * loose.value.r);
     assert_true(tight.standard_error.r <= 0.0005 * tight.value.r);
     assert_true(tight.samples > loose.samples);
-    s.floor = 1000;
-    estimate(&s, 1, disk, NULL, &tight);
-    assert_true(tight.samples < loose.samples);
+    s.floor = 10;
+    estimate(&s, 1, disk, NULL, &loose);
+    assert_true(loose.samples < tight.samples);
+    assert_true(loose.standard_error.r <= 0.0005 * 10);
+}
+
+/* Mostly a little, and few samples find what matters: the mean is 1. */
+static path_sample seldom(void *user, sampler *points, estimate_luck *luck) {
+    double chance = *(double *)user, u[2], v[2];
+    sampler_2d(points, u);
+    sampler_2d(points, v);
+    *luck = ESTIMATE_NOISY;
+    /* Low digits, which are as if independent. */
+    double found = fmod(u[0] * 0x1p20, 1) < chance ? 2 * 0.97 / chance * u[1] : 0;
+    return (path_sample){.radiance = rgb_gray(0.06 * v[0] + found)};
+}
+
+/* Above and below the floor alike: estimates are right on the average, as likely within their errors as they say, and
+ * these are mostly what was asked for. */
+static void what_is_below_the_floor_is_true(void **state) {
+    (void)state;
+    enum { COUNT = 1500 };
+    struct {
+        double chance, floor, largest; /* the error, as a part of what was asked for */
+    } cases[] = {{0.1, 1, 1.2}, {0.1, 3, 1.2}, {0.1, 10, 1.2}, {0.1, 30, 1.2}, {0.01, 3, 2}};
+    graze_trace_settings s = graze_trace_defaults();
+    s.error = 0.05;
+    for (size_t f = 0; f < sizeof cases / sizeof *cases; f++) {
+        double sum = 0, squares = 0, covered = 0;
+        s.floor = cases[f].floor;
+        for (int i = 0; i < COUNT; i++) {
+            graze_answer answer;
+            estimate(&s, (uint64_t)i + COUNT * f, seldom, &cases[f].chance, &answer);
+            double error = answer.value.r - 1;
+            sum += error;
+            squares += error * error;
+            covered += (fabs(error) <= 1.96 * answer.standard_error.r) / (double)COUNT;
+        }
+        double scatter = sqrt(squares / COUNT), uncertain = scatter / sqrt(COUNT);
+        if (fabs(sum / COUNT) > 3 * uncertain || covered < 0.9 || scatter > cases[f].largest * s.error * s.floor)
+            fail_msg("floor %g: %g too large, +- %g, %.1f%% covered, error %g", s.floor, sum / COUNT, uncertain,
+                     100 * covered, scatter);
+    }
 }
 
 /* Zeros, as from a light that has not been found yet, or as from an empty pixel. */
@@ -246,6 +286,7 @@ int main(void) {
         cmocka_unit_test(one_sample_has_no_error),
         cmocka_unit_test(controls_help_and_do_not_shift),
         cmocka_unit_test(stops_at_the_error_asked_for),
+        cmocka_unit_test(what_is_below_the_floor_is_true),
         cmocka_unit_test(zeros_need_many_samples_unless_certain),
         cmocka_unit_test(searches_need_many_samples),
         cmocka_unit_test(reports_the_limit),
