@@ -12,7 +12,7 @@
 /* The sparse grid that the picture's mean is estimated from has at most this many pixels a side, each with this many
  * samples. */
 #define PILOT_SIDE    64
-#define PILOT_SAMPLES 16
+#define PILOT_SAMPLES 4
 /* Pictures of fewer pixels, and of smaller errors, need no irradiance cache. */
 #define CACHE_PIXELS 2048
 #define CACHE_ERROR  0.005
