@@ -65,7 +65,6 @@ static void follow(path *p, gathering *here) {
         if (!decided) {
             here->lobes = lobes_choose(p, v);
             direct_light_prepare(p, v, &here->lights);
-            here->decided = !v->drawn;
         }
         p->known.controls = p->known.settled = p->known.watched = 0;
         if (light_choice_is_possible(&here->lights) && !context->record) {
@@ -76,6 +75,7 @@ static void follow(path *p, gathering *here) {
         /* Where it was not all for an earlier path, it is not for this one. */
         if (!context->observer && !decided && known_light_is_all(p, v, &here->lights))
             return;
+        here->decided = !v->drawn;
         vec3 direction;
         if (!lobes_reflect(p, v, &here->lights, here->lobes, &direction))
             return;
