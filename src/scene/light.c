@@ -34,9 +34,9 @@ static rgb within_range(rgb a) {
                  fmin(fmax(a.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
-rgb light_patterned(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal, double distance,
-                    double travelled) {
-    if (!light->modifiers || rgb_is_black(radiance))
+rgb light_pattern_radiance(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal,
+                           double distance, double travelled) {
+    if (rgb_is_black(radiance))
         return radiance;
     const material_ray ray = {.point = point,
                               .direction = direction,

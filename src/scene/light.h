@@ -15,10 +15,18 @@ rgb light_radiance(const scene_light *, vec3 direction, vec3 normal);
  * weaker than the light is bright to the eye, by (distance / (distance + focus))^2. */
 rgb light_radiance_at(const scene_light *, vec3 direction, vec3 normal, double distance);
 
+/* The radiance of a light with patterns, see light_patterned. */
+rgb light_pattern_radiance(const scene_light *, rgb radiance, vec3 point, vec3 direction, vec3 normal, double distance,
+                           double travelled);
+
 /* The radiance with the light's patterns, where it has any, for a ray that ends at `point` on it (of a source, the
  * ray's origin) after `distance`, and has come all the way from the eye by `travelled`. Not negative. */
-rgb light_patterned(const scene_light *, rgb radiance, vec3 point, vec3 direction, vec3 normal, double distance,
-                    double travelled);
+static inline rgb light_patterned(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal,
+                                  double distance, double travelled) {
+    if (!light->modifiers)
+        return radiance;
+    return light_pattern_radiance(light, radiance, point, direction, normal, distance, travelled);
+}
 
 /* The source that a ray in this direction meets when nothing else is in its way, or -1: the first `light` in the
  * scene's order, else the first `glow`. */

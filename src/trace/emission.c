@@ -21,19 +21,23 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
     return power_heuristic(last->density, other);
 }
 
+static rgb patterned(const path *p, const path_hit *hit, rgb radiance) {
+    const scene_light *light = &p->context->scene->lights[hit->light];
+    return light_patterned(light, radiance, hit->point, hit->direction, hit->normal, hit->distance, p->length);
+}
+
 rgb emission_radiance(const path *p, const path_hit *hit, bool lights) {
     const scene_light *light = &p->context->scene->lights[hit->light];
-    rgb radiance = lights ? light_radiance_at(light, hit->direction, hit->normal, hit->distance)
-                          : light_radiance(light, hit->direction, hit->normal);
-    return light_patterned(light, radiance, hit->point, hit->direction, hit->normal, hit->distance, p->length);
+    return patterned(p, hit,
+                     lights ? light_radiance_at(light, hit->direction, hit->normal, hit->distance)
+                            : light_radiance(light, hit->direction, hit->normal));
 }
 
 rgb emission_found(const path *p, const path_hit *hit) {
     const scene_light *light = &p->context->scene->lights[hit->light];
     light_role role = light_role_at(light, hit->distance);
-    rgb throughput = p->throughput;
-    bool lights = false;
-    if (rgb_is_black(light_radiance(light, hit->direction, hit->normal)) || (role == LIGHT_NONE && p->scattered))
+    rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
+    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
         return rgb_gray(0);
     if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
         if (known_light_is_settled(p, hit->light))
@@ -42,9 +46,9 @@ rgb emission_found(const path *p, const path_hit *hit) {
             return rgb_gray(0);
         throughput = role == LIGHT_DIRECT ? p->last.direct : p->last.indirect;
         throughput = rgb_scale(found_weight(p, hit, role), throughput);
-        lights = true;
+        radiance = light_radiance_at(light, hit->direction, hit->normal, hit->distance);
     } else if (role != LIGHT_AMBIENT && !p->context->settings->lights_visible) {
         return rgb_gray(0);
     }
-    return rgb_multiply(throughput, emission_radiance(p, hit, lights));
+    return rgb_multiply(throughput, patterned(p, hit, radiance));
 }
