@@ -306,7 +306,7 @@ def cases():
     tiles += np.c_[other.uniform(0.02, 1.08, (144, 2)), np.zeros(144)]
     yield Case("patterns, textures, mixtures", "lamp patterns", aim([0.3, -1, 5], tiles), "-ab 0", repeat=512)
     yield Case("patterns seen from below", "lamp patterns", aim([0.3, -1, -5], tiles), "-ab 0", repeat=64)
-    outward, middle = normalized(other.normal(size=(320, 3))), np.where(np.arange(320)[:, None] % 2, [0, 0, 1], [2.5, 0, 1])
+    outward, middle = normalized(other.normal(size=(200, 3))), np.where(np.arange(200)[:, None] % 2, [0, 0, 1], [2.5, 0, 1])
     relief = 0.8 * outward + middle
     seen = (([1, -3, 1.5] - relief) * outward).sum(1) > 0
     yield Case("relief", "lamp relief", aim([1, -3, 1.5], relief[seen]), "-ab 0 -st 1", repeat=512)
