@@ -116,6 +116,23 @@ static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive
     return GRAZE_OK;
 }
 
+void shape_from_triangle(shape *s, const vec3 vertices[3]) {
+    static const uint32_t corners[1][3] = {{0, 1, 2}};
+    vec3 normal = newell_normal(vertices, 3);
+    double extent = outline_extent(vertices, 3), length = vec3_length(normal);
+    *s = (shape){.kind = SHAPE_POLYGON};
+    s->polygon.vertices = vertices;
+    s->polygon.vertex_count = 3;
+    s->polygon.center = mean_vertex(vertices, 3);
+    s->polygon.triangles = corners;
+    if (!(length > NO_AREA * extent * extent))
+        return;
+    s->polygon.normal = vec3_scale(1 / length, normal);
+    s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
+    s->polygon.area = 0.5 * length;
+    s->polygon.triangle_count = 1;
+}
+
 static graze_status make_sphere(shape *s, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_reals(p, 4, report);
     if (status)

@@ -61,6 +61,9 @@ typedef struct shape {
  * warned about and turn the normal; non-planar polygons are warned about. */
 graze_status shape_from_primitive(shape *, bool *degenerate, const rad_primitive *, arena *, const graze_report *);
 
+/* The triangle between three vertices, which it keeps; where these have no area, no ray meets it. */
+void shape_from_triangle(shape *, const vec3 vertices[3]);
+
 /* Finds out what drawing points of the shape asks every time. Memory comes from the arena; false: there is none. */
 bool shape_prepare_light(shape *, arena *);
 /* Whether the polygon is a rectangle, as far as its vertices' roundings tell. */
