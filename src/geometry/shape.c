@@ -13,6 +13,8 @@
 /* Squares of areas must fit into a double. */
 #define LARGEST_COORDINATE 1e9
 
+_Static_assert(sizeof(vec3) == 3 * sizeof(double), "vertices are read where they stand among a polygon's reals");
+
 static vec3 real3(const double *reals) {
     return vec3_make(reals[0], reals[1], reals[2]);
 }
@@ -74,48 +76,6 @@ static double triangle_area(const shape *s, const uint32_t *corner) {
                      vec3_cross(vec3_subtract(v[corner[1]], v[corner[0]]), vec3_subtract(v[corner[2]], v[corner[0]])));
 }
 
-static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive *p, arena *memory,
-                                 const graze_report *report) {
-    if (p->real_count < 9 || p->real_count % 3)
-        return rad_primitive_error(report, p,
-                                   "%u real arguments where three for each of three or more vertices are needed",
-                                   (unsigned)p->real_count);
-    graze_status status = check_reals(p, p->real_count, report);
-    if (status)
-        return status;
-    uint32_t count = p->real_count / 3;
-    vec3 *vertices = arena_allocate(memory, count * sizeof *vertices);
-    if (!vertices)
-        return report_out_of_memory(report);
-    for (uint32_t i = 0; i < count; i++)
-        vertices[i] = real3(p->reals + 3 * (size_t)i);
-    if (count > 3 && vec3_length(vec3_subtract(vertices[count - 1], vertices[0])) <= TINY_RADIUS)
-        count--;
-
-    s->kind = SHAPE_POLYGON;
-    s->polygon.vertices = vertices;
-    s->polygon.vertex_count = count;
-    vec3 normal = newell_normal(vertices, count);
-    double extent = outline_extent(vertices, count);
-    *degenerate = !(vec3_length(normal) > NO_AREA * extent * extent);
-    if (!*degenerate) {
-        s->polygon.normal = vec3_normalize(normal);
-        s->polygon.center = mean_vertex(vertices, count);
-        s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
-        if (count > 3 && !is_planar(s))
-            rad_primitive_warning(report, p, "non-planar vertex");
-        status = shape_tessellate(s, memory, p->where, report);
-        if (status)
-            return status;
-        for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
-            s->polygon.area += triangle_area(s, s->polygon.triangles[i]);
-        *degenerate = !s->polygon.triangle_count;
-    }
-    if (*degenerate)
-        rad_primitive_warning(report, p, "zero area; the surface is left out");
-    return GRAZE_OK;
-}
-
 void shape_from_triangle(shape *s, const vec3 vertices[3]) {
     static const uint32_t corners[1][3] = {{0, 1, 2}};
     vec3 normal = newell_normal(vertices, 3);
@@ -131,6 +91,51 @@ void shape_from_triangle(shape *s, const vec3 vertices[3]) {
     s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
     s->polygon.area = 0.5 * length;
     s->polygon.triangle_count = 1;
+}
+
+static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive *p, arena *memory,
+                                 const graze_report *report) {
+    if (p->real_count < 9 || p->real_count % 3)
+        return rad_primitive_error(report, p,
+                                   "%u real arguments where three for each of three or more vertices are needed",
+                                   (unsigned)p->real_count);
+    graze_status status = check_reals(p, p->real_count, report);
+    if (status)
+        return status;
+    uint32_t count = p->real_count / 3;
+    const vec3 *vertices = (const vec3 *)p->reals;
+    if (count > 3 && vec3_length(vec3_subtract(vertices[count - 1], vertices[0])) <= TINY_RADIUS)
+        count--;
+
+    if (count == 3) {
+        shape_from_triangle(s, vertices);
+        *degenerate = !s->polygon.triangle_count;
+        if (*degenerate)
+            rad_primitive_warning(report, p, "zero area; the surface is left out");
+        return GRAZE_OK;
+    }
+    s->kind = SHAPE_POLYGON;
+    s->polygon.vertices = vertices;
+    s->polygon.vertex_count = count;
+    vec3 normal = newell_normal(vertices, count);
+    double extent = outline_extent(vertices, count);
+    *degenerate = !(vec3_length(normal) > NO_AREA * extent * extent);
+    if (!*degenerate) {
+        s->polygon.normal = vec3_normalize(normal);
+        s->polygon.center = mean_vertex(vertices, count);
+        s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
+        if (!is_planar(s))
+            rad_primitive_warning(report, p, "non-planar vertex");
+        status = shape_tessellate(s, memory, p->where, report);
+        if (status)
+            return status;
+        for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
+            s->polygon.area += triangle_area(s, s->polygon.triangles[i]);
+        *degenerate = !s->polygon.triangle_count;
+    }
+    if (*degenerate)
+        rad_primitive_warning(report, p, "zero area; the surface is left out");
+    return GRAZE_OK;
 }
 
 static graze_status make_sphere(shape *s, const rad_primitive *p, const graze_report *report) {

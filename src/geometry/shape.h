@@ -55,7 +55,8 @@ typedef struct shape {
     };
 } shape;
 
-/* Makes the shape of a surface primitive (not source, mesh or instance). Memory comes from the arena. Checks arguments
+/* Makes the shape of a surface primitive (not source, mesh or instance). Memory comes from the arena; vertices of
+ * polygons stay where they are, among the primitive's reals. Checks arguments
  * as Radiance does: polygons without area, cones without axis and cones or rings of illegal radii are warned about and
  * give *degenerate = true (the surface then does not exist); a sphere of zero radius is an error; negative radii are
  * warned about and turn the normal; non-planar polygons are warned about. */
