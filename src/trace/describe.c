@@ -18,6 +18,9 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
         hit.normal = found->normal;
         bool turned = found->behind && !material->emits;
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
+        scene_mesh_point mesh = scene_mesh_point_at(scene, found->surface, found->point);
+        hit.uv[0] = mesh.uv[0];
+        hit.uv[1] = mesh.uv[1];
         if (appearance_has_normal(scene, material, found->surface)) {
             vec3 normal = appearance_normal(scene, found, 0);
             hit.shading_normal = found->behind != turned ? vec3_negate(normal) : normal;

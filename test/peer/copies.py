@@ -16,7 +16,7 @@ import numpy as np
 BIN = os.environ["BIN"]
 PEER = os.environ["GRAZE_PEER_BIN"]
 SEED = int(os.environ.get("GRAZE_PEER_SEED", "1"))
-OPTIONS = ["-h", "-w", "-ab", "0", "-av", ".3", ".25", ".2", "-ovLpNnsmM"]
+OPTIONS = ["-h", "-w", "-ab", "0", "-av", ".3", ".25", ".2", "-ovLpNncsmM"]
 COUNT = 4000
 
 MATERIALS = """void plastic leaf 0 0 5 .1 .5 .1 0 0
@@ -169,12 +169,12 @@ def compare(theirs, ours):
         return COUNT, f"{len(theirs)} and {len(ours)} answers"
     for a, b in zip(theirs, ours):
         x, y = a.split(), b.split()
-        numbers = np.array(x[:13], float), np.array(y[:13], float)
+        numbers = np.array(x[:15], float), np.array(y[:15], float)
         # The point and the normals of what is infinitely far differ.
         far = numbers[0][3] > 1e9
         close = np.allclose(numbers[0][:4], numbers[1][:4], rtol=2e-5, atol=1e-6)
         close = close and (far or np.allclose(numbers[0][4:], numbers[1][4:], rtol=2e-5, atol=3e-5))
-        if not close or (not far and x[13:] != y[13:]):
+        if not close or (not far and x[15:] != y[15:]):
             different += 1
             first = first or f"rtrace: {a} | gtrace: {b}"
     return different, first
