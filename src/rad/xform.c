@@ -132,13 +132,17 @@ static graze_status keep_file(job *j, const char *name, bool expand, const list 
             *primitives = &j->files[i].primitives;
             return GRAZE_OK;
         }
+    /* It may be the numbered name of an array's instance, which does not last. */
+    const char *kept_name = arena_copy_text(j->reader->memory, name, strlen(name));
+    if (!kept_name)
+        return report_out_of_memory(j->reader->report);
     int room = j->next_file;
     j->next_file = (room + 1) % KEPT_FILES;
     if (j->file_count < KEPT_FILES)
         ++j->file_count;
     list *l = &j->files[room].primitives;
     list_free(l);
-    j->files[room].name = name;
+    j->files[room].name = kept_name;
     j->files[room].expand = expand;
     *primitives = l;
     list_sink kept = {j->reader, l};
