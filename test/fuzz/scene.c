@@ -8,7 +8,7 @@ static bool has_large_array(const uint8_t *data, size_t size) {
     for (size_t i = 0; i < size; i++) {
         arrays += i > 0 && data[i - 1] == '-' && (data[i] == 'a' || data[i] == 'f');
         digits = data[i] >= '0' && data[i] <= '9' ? digits + 1 : 0;
-        if (arrays > 3 || (arrays > 0 && digits > 2))
+        if (arrays > 3 || (arrays > 0 && digits > 1))
             return true;
     }
     return false;

@@ -185,12 +185,12 @@ static void damaged_meshes_are_refused(void **state) {
 static void survives_damage(void **state) {
     (void)state;
     binary whole = good_mesh();
-    uint64_t random = 5;
+    dice d = {5};
     int good = 0, bad = 0;
     for (int round = 0; round < 3000; round++) {
         binary b = whole;
-        for (uint64_t i = 0; i < 1 + random_bits(&random) % 3; i++)
-            b.bytes[45 + random_bits(&random) % (b.length - 45)] = (char)random_bits(&random);
+        for (uint64_t i = 0; i < 1 + roll_bits(&d) % 3; i++)
+            b.bytes[45 + roll_bits(&d) % (b.length - 45)] = (char)roll_bits(&d);
         write_binary("bad.rtm", &b);
         messages m;
         rad_scene *scene;
