@@ -126,6 +126,10 @@ FUZZ_FLAGS_records := -Wl,--wrap=read,--wrap=poll
 FUZZ_BASIS_measurements := fit
 FUZZ_BASIS_cal := cal
 FUZZ_BASIS_data := rad
+FUZZ_BASIS_scene := rad
+FUZZ_BASIS_parts := rad
+FUZZ_FLAGS_scene := -Wl,--wrap=whole_file_read_path,--wrap=rad_command_output,--wrap=access
+FUZZ_FLAGS_parts := $(FUZZ_FLAGS_scene)
 $(BUILD)/test/fuzz/replay.o: test/fuzz/replay.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -c -o $@ $<
@@ -226,8 +230,8 @@ test:
 	@BUILD=$(BUILD) BIN=$(BIN) MAKE=$(MAKE) test/run $(TEST_GROUPS)
 test: TEST_GROUPS = unit cli $(if $(filter no,$(PEER)),,peer)
 
-# bench: models beside libmvec, records and function files beside rcalc, rays and pictures beside rtrace; BENCH=brdf, ... for one of these
-BENCH := brdf records cal rays pictures
+# bench: models beside libmvec, records and function files beside rcalc, rays, large scenes and pictures beside rtrace; BENCH=brdf, ... for one of these
+BENCH := brdf records cal rays load pictures
 bench:
 	@scripts/install-dependencies build test $(if $(filter pictures,$(BENCH)),figures)
 	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)

@@ -38,12 +38,14 @@ typedef struct box {
 } box;
 
 static box box_join(box a, box b) {
-    return (box){{fmin(a.lower.x, b.lower.x), fmin(a.lower.y, b.lower.y), fmin(a.lower.z, b.lower.z)},
-                 {fmax(a.upper.x, b.upper.x), fmax(a.upper.y, b.upper.y), fmax(a.upper.z, b.upper.z)}};
+    return (box){
+        {shaft_lesser(a.lower.x, b.lower.x), shaft_lesser(a.lower.y, b.lower.y), shaft_lesser(a.lower.z, b.lower.z)},
+        {shaft_greater(a.upper.x, b.upper.x), shaft_greater(a.upper.y, b.upper.y),
+         shaft_greater(a.upper.z, b.upper.z)}};
 }
 
 static double box_reach(box b) {
-    return fmax(vec3_max_abs(b.lower), vec3_max_abs(b.upper));
+    return double_max(vec3_max_abs(b.lower), vec3_max_abs(b.upper));
 }
 
 /* Copies that hold something; their groups are known already. */
@@ -91,38 +93,6 @@ vec3 geometry_corner(const geometry_tree *tree, const geometry_triangle *triangl
     return s->polygon.vertices[s->polygon.triangles[triangle->index][corner]];
 }
 
-/* The least height of a triangle, in Embree's units. */
-static double triangle_height(const geometry_tree *tree, const geometry_triangle *triangle, vec3 *normal) {
-    vec3 a = geometry_corner(tree, triangle, 0);
-    vec3 ab = vec3_subtract(geometry_corner(tree, triangle, 1), a),
-         ac = vec3_subtract(geometry_corner(tree, triangle, 2), a);
-    vec3 bc = vec3_subtract(ac, ab);
-    double longest2 = fmax(vec3_dot(ab, ab), fmax(vec3_dot(ac, ac), vec3_dot(bc, bc)));
-    *normal = vec3_cross(ab, ac);
-    return tree->scale * vec3_length(*normal) / sqrt(longest2);
-}
-
-static double triangle_border(double height) {
-    return fmin(fmax(height / 64, GEOMETRY_BORDER_LEAST), GEOMETRY_BORDER);
-}
-
-/* The farthest corner's distance from the scene's middle, in Embree's units. */
-static double triangle_reach(const geometry_tree *tree, const geometry_triangle *triangle) {
-    double reach = 0;
-    for (int i = 0; i < 3; i++)
-        reach = fmax(reach, tree->scale * vec3_length(vec3_subtract(geometry_corner(tree, triangle, i), tree->center)));
-    return reach;
-}
-
-static void set_tolerances(const geometry_tree *tree, geometry_triangle *triangle) {
-    vec3 normal;
-    double height = triangle_height(tree, triangle, &normal), border = triangle_border(height);
-    /* Where the polygon is not flat, its normal does not tell how obliquely the triangle is met. */
-    bool flat = vec3_length(vec3_cross(normal, triangle->normal)) < 1e-6 * vec3_length(normal);
-    triangle->error = (float)(GEOMETRY_UNIT_ERROR * triangle_reach(tree, triangle) + border);
-    triangle->margin = flat ? (float)((GEOMETRY_FLOAT_ERROR + border) / height) : INFINITY;
-}
-
 static void collect_polygon(const geometry_tree *tree, int surface, geometry_triangle *triangle) {
     const shape *s = &tree->shapes[surface];
     for (uint32_t k = 0; k < s->polygon.triangle_count; k++, triangle++) {
@@ -131,7 +101,6 @@ static void collect_polygon(const geometry_tree *tree, int surface, geometry_tri
                                         .surface = surface,
                                         .index = k,
                                         .shines = s->shines};
-        set_tolerances(tree, triangle);
     }
 }
 
@@ -160,26 +129,55 @@ static bool collect_surfaces(geometry_tree *tree) {
     return true;
 }
 
-/* Where a corner of a triangle comes to lie when the border is put around it; a sharp one is cut short. */
-static vec3 border_corner(vec3 corner, vec3 next, vec3 previous, double border) {
-    vec3 u = vec3_normalize(vec3_subtract(next, corner)), w = vec3_normalize(vec3_subtract(previous, corner));
-    vec3 inwards = vec3_normalize(vec3_add(u, w));
-    double sine = 0.5 * vec3_length(vec3_subtract(u, w)); /* of half the angle */
-    return vec3_add_scaled(corner, -border / fmax(sine, 1.0 / 32), inwards);
+static double triangle_border(double height) {
+    return shaft_lesser(shaft_greater(height / 64, GEOMETRY_BORDER_LEAST), GEOMETRY_BORDER);
 }
 
-/* The triangle's corners as Embree gets them. */
-static void put_triangle(const geometry_tree *tree, const geometry_triangle *triangle, float *out) {
-    vec3 v[3], normal;
-    double border = triangle_border(triangle_height(tree, triangle, &normal));
-    for (int i = 0; i < 3; i++)
-        v[i] = vec3_scale(tree->scale, vec3_subtract(geometry_corner(tree, triangle, i), tree->center));
+/* The farthest corner's distance from the scene's middle, in Embree's units. */
+static double triangle_reach(const geometry_tree *tree, const vec3 *corners) {
+    double reach2 = 0;
     for (int i = 0; i < 3; i++) {
-        vec3 corner = border_corner(v[i], v[(i + 1) % 3], v[(i + 2) % 3], border);
+        vec3 v = vec3_subtract(corners[i], tree->center);
+        reach2 = shaft_greater(reach2, vec3_dot(v, v));
+    }
+    return tree->scale * sqrt(reach2);
+}
+
+/* Where the corners come to lie when the border is put around the triangle, in Embree's units; a sharp one is cut
+ * short. `sides` are the unit vectors from each corner to the next. */
+static void put_corners(const geometry_tree *tree, const vec3 *corners, const vec3 *sides, double border, float *out) {
+    for (int i = 0; i < 3; i++) {
+        vec3 corner = vec3_scale(tree->scale, vec3_subtract(corners[i], tree->center));
+        vec3 next = sides[i], previous = vec3_negate(sides[(i + 2) % 3]);
+        vec3 inwards = vec3_normalize(vec3_add(next, previous));
+        double sine = 0.5 * vec3_length(vec3_subtract(next, previous)); /* of half the angle */
+        corner = vec3_add_scaled(corner, -border / shaft_greater(sine, 1.0 / 32), inwards);
         *out++ = (float)corner.x;
         *out++ = (float)corner.y;
         *out++ = (float)corner.z;
     }
+}
+
+/* The triangle as Embree gets it, and how far it can then be trusted. */
+static void put_triangle(const geometry_tree *tree, geometry_triangle *triangle, float *out) {
+    vec3 corners[3], sides[3];
+    for (int i = 0; i < 3; i++)
+        corners[i] = geometry_corner(tree, triangle, i);
+    for (int i = 0; i < 3; i++)
+        sides[i] = vec3_subtract(corners[(i + 1) % 3], corners[i]);
+    vec3 normal = vec3_cross(sides[0], vec3_negate(sides[2]));
+    double lengths[3], longest = 0, area = vec3_length(normal);
+    for (int i = 0; i < 3; i++) {
+        lengths[i] = vec3_length(sides[i]);
+        longest = shaft_greater(longest, lengths[i]);
+        sides[i] = vec3_scale(1 / lengths[i], sides[i]);
+    }
+    double height = tree->scale * area / longest, border = triangle_border(height); /* the least of its heights */
+    /* Where the polygon is not flat, its normal does not tell how obliquely the triangle is met. */
+    bool flat = vec3_length(vec3_cross(normal, triangle->normal)) < 1e-6 * area;
+    triangle->error = (float)(GEOMETRY_UNIT_ERROR * triangle_reach(tree, corners) + border);
+    triangle->margin = flat ? (float)((GEOMETRY_FLOAT_ERROR + border) / height) : INFINITY;
+    put_corners(tree, corners, sides, border, out);
 }
 
 /* Adds the geometry to the scene, which then owns it. */

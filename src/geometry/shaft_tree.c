@@ -59,6 +59,19 @@ static item item_of(const shape *shapes, int index, vec3 lower, vec3 upper) {
     return (item){code | (shape_area(&shapes[index]) <= large * large ? SMALL_BIT : 0), index};
 }
 
+/* What leaves are made of. Shapes lie in memory in another order than here, and each in several places: it is looked up
+ * while they are passed in their own order. */
+typedef struct enclosure {
+    vec3 lower, upper;
+    bool reflects;
+} enclosure;
+
+static enclosure enclosure_of(const shape *s) {
+    enclosure e = {.reflects = !s->shines};
+    shape_bounds(s, &e.lower, &e.upper);
+    return e;
+}
+
 #define DIGIT_BITS 11
 #define DIGITS     (1 << DIGIT_BITS)
 
@@ -100,6 +113,7 @@ static item *sort_items(item *items, item *other, size_t count) {
 typedef struct builder {
     shaft_tree *tree;
     const shape *shapes;
+    const enclosure *enclosures; /* by shape */
     const item *items;
     size_t leaf_size;
 } builder;
@@ -116,11 +130,9 @@ static shaft_node leaf_of(const builder *b, size_t first, size_t end) {
                        .first = (uint32_t)first,
                        .count = (uint32_t)(end - first)};
     for (size_t i = first; i < end; i++) {
-        const shape *s = &b->shapes[b->tree->order[i]];
-        vec3 lower, upper;
-        shape_bounds(s, &lower, &upper);
-        include_box(&leaf, lower, upper);
-        leaf.reflects = leaf.reflects || !s->shines;
+        const enclosure *e = &b->enclosures[b->tree->order[i]];
+        include_box(&leaf, e->lower, e->upper);
+        leaf.reflects = leaf.reflects || e->reflects;
     }
     return leaf;
 }
@@ -181,8 +193,9 @@ static bool build_node(const builder *b, uint32_t index, size_t first, size_t en
     return true;
 }
 
-static bool build_from(shaft_tree *tree, const shape *shapes, const item *items, size_t count) {
-    builder b = {tree, shapes, items, count > FEW ? LEAF_SIZE : 1};
+static bool build_from(shaft_tree *tree, const shape *shapes, const enclosure *enclosures, const item *items,
+                       size_t count) {
+    builder b = {tree, shapes, enclosures, items, count > FEW ? LEAF_SIZE : 1};
     tree->capacity = (uint32_t)fmin(2.0 * (double)count, 2 * FEW) + 2;
     tree->node_count = 1;
     tree->nodes = malloc(tree->capacity * sizeof *tree->nodes);
@@ -197,12 +210,17 @@ static bool build_from(shaft_tree *tree, const shape *shapes, const item *items,
 bool shaft_tree_build(shaft_tree *tree, const shape *shapes, size_t count, vec3 lower, vec3 upper) {
     *tree = (shaft_tree){0};
     item *items = malloc(2 * count * sizeof *items);
-    if (!items)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        items[i] = item_of(shapes, (int)i, lower, upper);
-    bool built = build_from(tree, shapes, sort_items(items, items + count, count), count);
+    enclosure *enclosures = malloc(count * sizeof *enclosures);
+    bool built = false;
+    if (items && enclosures) {
+        for (size_t i = 0; i < count; i++) {
+            items[i] = item_of(shapes, (int)i, lower, upper);
+            enclosures[i] = enclosure_of(&shapes[i]);
+        }
+        built = build_from(tree, shapes, enclosures, sort_items(items, items + count, count), count);
+    }
     free(items);
+    free(enclosures);
     if (!built)
         shaft_tree_free(tree);
     return built;

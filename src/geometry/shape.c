@@ -13,6 +13,8 @@
 /* Squares of areas must fit into a double. */
 #define LARGEST_COORDINATE 1e9
 
+_Static_assert(sizeof(vec3) == 3 * sizeof(double), "vertices are read where they stand among a polygon's reals");
+
 static vec3 real3(const double *reals) {
     return vec3_make(reals[0], reals[1], reals[2]);
 }
@@ -74,6 +76,23 @@ static double triangle_area(const shape *s, const uint32_t *corner) {
                      vec3_cross(vec3_subtract(v[corner[1]], v[corner[0]]), vec3_subtract(v[corner[2]], v[corner[0]])));
 }
 
+void shape_from_triangle(shape *s, const vec3 vertices[3]) {
+    static const uint32_t corners[1][3] = {{0, 1, 2}};
+    vec3 normal = newell_normal(vertices, 3);
+    double extent = outline_extent(vertices, 3), length = vec3_length(normal);
+    *s = (shape){.kind = SHAPE_POLYGON};
+    s->polygon.vertices = vertices;
+    s->polygon.vertex_count = 3;
+    s->polygon.center = mean_vertex(vertices, 3);
+    s->polygon.triangles = corners;
+    if (!(length > NO_AREA * extent * extent))
+        return;
+    s->polygon.normal = vec3_scale(1 / length, normal);
+    s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
+    s->polygon.area = 0.5 * length;
+    s->polygon.triangle_count = 1;
+}
+
 static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive *p, arena *memory,
                                  const graze_report *report) {
     if (p->real_count < 9 || p->real_count % 3)
@@ -84,14 +103,17 @@ static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive
     if (status)
         return status;
     uint32_t count = p->real_count / 3;
-    vec3 *vertices = arena_allocate(memory, count * sizeof *vertices);
-    if (!vertices)
-        return report_out_of_memory(report);
-    for (uint32_t i = 0; i < count; i++)
-        vertices[i] = real3(p->reals + 3 * (size_t)i);
+    const vec3 *vertices = (const vec3 *)p->reals;
     if (count > 3 && vec3_length(vec3_subtract(vertices[count - 1], vertices[0])) <= TINY_RADIUS)
         count--;
 
+    if (count == 3) {
+        shape_from_triangle(s, vertices);
+        *degenerate = !s->polygon.triangle_count;
+        if (*degenerate)
+            rad_primitive_warning(report, p, "zero area; the surface is left out");
+        return GRAZE_OK;
+    }
     s->kind = SHAPE_POLYGON;
     s->polygon.vertices = vertices;
     s->polygon.vertex_count = count;
@@ -102,7 +124,7 @@ static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive
         s->polygon.normal = vec3_normalize(normal);
         s->polygon.center = mean_vertex(vertices, count);
         s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
-        if (count > 3 && !is_planar(s))
+        if (!is_planar(s))
             rad_primitive_warning(report, p, "non-planar vertex");
         status = shape_tessellate(s, memory, p->where, report);
         if (status)

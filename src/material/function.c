@@ -137,10 +137,11 @@ void material_channels(double channels[CAL_CHANNELS_MOST], const material_owner 
         set_vector(channels, CAL_PX, o->moved ? rad_transform_point(t, ray->point) : ray->point);
     channels[CAL_T - 1] = ray->distance * t->scale;
     channels[CAL_TS - 1] = ray->last_distance * t->scale;
+    channels[CAL_LU - 1] = ray->u;
+    channels[CAL_LV - 1] = ray->v;
     channels[CAL_RDOT - 1] = fmax(fmin(-vec3_dot(ray->direction, ray->normal), 1), -1);
     if (wanted & CAL_CHANNEL_BITS(CAL_S, CAL_KZ))
         set_transform(channels, t);
-    channels[CAL_LU - 1] = channels[CAL_LV - 1] = 0;
 }
 
 bool material_function_values(const material_function *f, const material_owner *o, const double *channels,

@@ -15,6 +15,7 @@ typedef struct material_ray {
     vec3 normal;           /* the surface's own; of a source against the direction */
     double distance;       /* all the way from the eye (T) */
     double last_distance;  /* of the ray alone (Ts) */
+    double u, v;           /* texture coordinates of a mesh (Lu, Lv); else 0 */
 } material_ray;
 
 /* The primitive that functions belong to. */

@@ -214,7 +214,7 @@ static graze_status read_parts(rad_linker *l) {
     graze_status status = GRAZE_OK;
     if (!add_part(scene, (rad_part){.count = scene->count}))
         status = report_out_of_memory(l->reader.report);
-    for (size_t i = 0; i < scene->part_count && !status; i++)
+    for (size_t i = 0; i < scene->part_count && !status && !l->reader.status; i++)
         status = read_copies(l, &files, i);
     rad_name_table_free(&files);
     if (l->reader.status)

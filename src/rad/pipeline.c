@@ -114,7 +114,7 @@ static bool is_xform(const char *program) {
     return !strcmp(slash ? slash + 1 : program, "xform");
 }
 
-/* The argument file of `-f -` comes from the pipe: that is no scene, so it is not for us. */
+/* The argument file of `-f -` comes from the pipe. */
 static bool reads_arguments_from_input(const rad_stage *stage) {
     for (int i = 2; i < stage->count; ++i)
         if (!strcmp(stage->words[i - 1], "-f") && !strcmp(stage->words[i], "-"))
@@ -138,7 +138,7 @@ static bool read_stage(rad_stage *stage, span text, bool *simple, arena *memory)
         if (stage->count == 1 && !is_xform(words[0]))
             return true;
     }
-    *simple = stage->count > 0 && !reads_arguments_from_input(stage);
+    *simple = stage->count > 0;
     return true;
 }
 
@@ -170,6 +170,10 @@ bool rad_pipeline_split(rad_pipeline *pipeline, const char *command, arena *memo
             break;
         --first;
         rest.end = first > 0 ? pipes[first - 1] : command;
+        /* What comes before it is for the shell: it gives words, no scene. */
+        pipeline->front_is_options = reads_arguments_from_input(&stages[first]);
+        if (pipeline->front_is_options)
+            break;
     }
     if (first > pipe_count || (first > 0 && is_all_blank(rest)))
         return true;

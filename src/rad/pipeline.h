@@ -16,7 +16,8 @@ typedef struct rad_stage {
 typedef struct rad_pipeline {
     const char *front; /* for the shell; or null where the first stage has no pipe before it */
     const rad_stage *stages;
-    int stage_count; /* 0: all of the command is `front` */
+    int stage_count;       /* 0: all of the command is `front` */
+    bool front_is_options; /* the first stage reads arguments from its input (`-f -`): `front` gives these, no scene */
 } rad_pipeline;
 
 /* Splits the trailing xform stages off the command, as far as they need nothing of a shell but quotes and backslashes,

@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "base/whole_file.h"
+#include "rad/command.h"
 #include "rad/filter.h"
 #include "rad/path.h"
 #include "rad/words.h"
@@ -28,8 +29,9 @@ typedef struct job {
     rad_reader *reader;
     const rad_context *context;
     const rad_sink *sink;
-    list *input; /* its standard input; or null: there is nothing on it */
-    bool once;   /* no array and no argument file: everything is read and transformed once */
+    list *input;               /* its standard input; or null: there is nothing on it */
+    const whole_file *options; /* its standard input, where that is an argument file */
+    bool once;                 /* no array and no argument file: everything is read and transformed once */
     long instances;
     struct {
         const char *name;
@@ -130,13 +132,17 @@ static graze_status keep_file(job *j, const char *name, bool expand, const list 
             *primitives = &j->files[i].primitives;
             return GRAZE_OK;
         }
+    /* It may be the numbered name of an array's instance, which does not last. */
+    const char *kept_name = arena_copy_text(j->reader->memory, name, strlen(name));
+    if (!kept_name)
+        return report_out_of_memory(j->reader->report);
     int room = j->next_file;
     j->next_file = (room + 1) % KEPT_FILES;
     if (j->file_count < KEPT_FILES)
         ++j->file_count;
     list *l = &j->files[room].primitives;
     list_free(l);
-    j->files[room].name = name;
+    j->files[room].name = kept_name;
     j->files[room].expand = expand;
     *primitives = l;
     list_sink kept = {j->reader, l};
@@ -342,8 +348,35 @@ static graze_status run_line(job *j, const char *const *words, int count, int at
     return run(j, instance, instance_count, depth + 1);
 }
 
+/* The command for each line of an argument file, which messages call `name`. */
+static graze_status run_lines(job *j, const char *const *words, int count, int at, const whole_file *text,
+                              const char *name, int depth) {
+    const graze_report *report = j->reader->report;
+    graze_status status = GRAZE_OK;
+    rad_words lines;
+    rad_words_begin(&lines, text->bytes, text->length);
+    int number = 0;
+    while (!status && lines.next < lines.end) {
+        rad_word line;
+        rad_word_status outcome = rad_words_command(&lines, &line);
+        if (outcome != RAD_WORD)
+            status = outcome == RAD_WORD_ZERO
+                         ? report_error(report, j->context->parent, "xform: %s is no argument file", name)
+                         : report_out_of_memory(report);
+        else if (line.length > 0 && line.text[0] != '#')
+            status = run_line(j, words, count, at, &line, number++, depth);
+    }
+    if (!status && number == 0)
+        status = report_error(report, j->context->parent, "xform: empty argument file \"%s\"", name);
+    rad_words_end(&lines);
+    return status;
+}
+
 static graze_status run_file(job *j, const char *const *words, int count, int at, int depth) {
     const graze_report *report = j->reader->report;
+    static const whole_file nothing = {"", 0};
+    if (at + 1 < count && !strcmp(words[at + 1], "-"))
+        return run_lines(j, words, count, at, j->options ? j->options : &nothing, "standard input", depth);
     if (at + 1 >= count || words[at + 1][0] == '-')
         return report_error(report, j->context->parent, "xform: missing file for -f option");
     const char *path = rad_path_resolve(j->reader->memory, j->context->directory, words[at + 1]);
@@ -353,22 +386,7 @@ static graze_status run_file(job *j, const char *const *words, int count, int at
     graze_status status = whole_file_read_path(&text, path, path, j->context->parent, report);
     if (status)
         return status;
-    rad_words lines;
-    rad_words_begin(&lines, text.bytes, text.length);
-    int number = 0;
-    while (!status && lines.next < lines.end) {
-        rad_word line;
-        rad_word_status outcome = rad_words_command(&lines, &line);
-        if (outcome != RAD_WORD)
-            status = outcome == RAD_WORD_ZERO
-                         ? report_error(report, j->context->parent, "xform: %s is no argument file", path)
-                         : report_out_of_memory(report);
-        else if (line.length > 0 && line.text[0] != '#')
-            status = run_line(j, words, count, at, &line, number++, depth);
-    }
-    if (!status && number == 0)
-        status = report_error(report, j->context->parent, "xform: empty argument file \"%s\"", path);
-    rad_words_end(&lines);
+    status = run_lines(j, words, count, at, &text, path, depth);
     free(text.bytes);
     return status;
 }
@@ -385,8 +403,8 @@ static graze_status run(job *j, const char *const *words, int count, int depth) 
 }
 
 static graze_status run_stage(rad_reader *reader, const rad_stage *stage, const rad_context *context, list *input,
-                              const rad_sink *sink) {
-    job j = {.reader = reader, .context = context, .sink = sink, .input = input};
+                              const whole_file *options, const rad_sink *sink) {
+    job j = {.reader = reader, .context = context, .sink = sink, .input = input, .options = options};
     j.once = !find_word(stage->words, stage->count, "-f") && !find_word(stage->words, stage->count, "-a");
     graze_status status = run(&j, stage->words, stage->count, 0);
     for (int i = 0; i < KEPT_FILES; ++i)
@@ -398,8 +416,11 @@ graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, con
                            const rad_sink *sink) {
     list passed[2] = {{0}, {0}}; /* from one stage to the next, in turn */
     list *input = NULL;
+    whole_file options = {NULL, 0};
     graze_status status = GRAZE_OK;
-    if (pipeline->front) {
+    if (pipeline->front && pipeline->front_is_options) {
+        status = rad_command_output(&options, pipeline->front, context->directory, context->parent, reader->report);
+    } else if (pipeline->front) {
         input = &passed[1];
         list_sink kept = {reader, input};
         status = rad_reader_shell(reader, pipeline->front, context, &(rad_sink){append, &kept});
@@ -409,10 +430,12 @@ graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, con
         list_sink kept = {reader, output};
         bool last = i == pipeline->stage_count - 1;
         output->count = 0;
-        status = run_stage(reader, &pipeline->stages[i], context, input, last ? sink : &(rad_sink){append, &kept});
+        status = run_stage(reader, &pipeline->stages[i], context, input, i == 0 && options.bytes ? &options : NULL,
+                           last ? sink : &(rad_sink){append, &kept});
         input = output;
     }
     list_free(&passed[0]);
     list_free(&passed[1]);
+    free(options.bytes);
     return status;
 }

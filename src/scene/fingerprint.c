@@ -25,11 +25,33 @@ static uint64_t add_primitive(uint64_t f, const rad_primitive *p) {
     return fingerprint_add(f, p->reals, p->real_count * sizeof *p->reals);
 }
 
+static uint64_t add_mesh(uint64_t f, const rad_mesh *mesh) {
+    size_t points = mesh->point_count;
+    f = add_number(f, mesh->point_count);
+    f = add_number(f, mesh->triangle_count);
+    f = fingerprint_add(f, mesh->points, points * sizeof *mesh->points);
+    f = fingerprint_add(f, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    if (mesh->normals)
+        f = fingerprint_add(f, mesh->normals, points * sizeof *mesh->normals);
+    if (mesh->uv)
+        f = fingerprint_add(f, mesh->uv, points * sizeof *mesh->uv);
+    return f;
+}
+
+/* Which part is behind an instance's name shows in the parts' order. */
+static uint64_t add_part(uint64_t f, const rad_part *part) {
+    f = add_number(f, (int64_t)part->count);
+    return part->mesh ? add_mesh(f, part->mesh) : f;
+}
+
 uint64_t scene_fingerprint(const graze_scene *scene) {
-    size_t count;
+    size_t count, part_count;
     const rad_primitive *primitives = rad_scene_primitives(scene->description, &count);
+    const rad_part *parts = rad_scene_parts(scene->description, &part_count);
     uint64_t f = FINGERPRINT_OF_NOTHING;
     for (size_t i = 0; i < count; i++)
         f = add_primitive(f, &primitives[i]);
+    for (size_t i = 0; i < part_count; i++)
+        f = add_part(f, &parts[i]);
     return f;
 }

@@ -4,8 +4,8 @@
 
 #include "scene/scene.h"
 
-/* A number of all that the scene's descriptions say (names, types, modifiers, arguments, in their order), but not of
- * where they say it. */
+/* A number of all that the scene's descriptions say (names, types, modifiers, arguments, in their order), the
+ * octrees and meshes that they name included, but not of where they say it. */
 uint64_t scene_fingerprint(const graze_scene *);
 
 #endif

@@ -7,18 +7,10 @@
 #include "geometry/shaft.h"
 #include "material/from_primitive.h"
 #include "scene/ambient_choice.h"
+#include "scene/builder.h"
 #include "scene/emitter.h"
 #include "scene/light_pattern.h"
 #include "scene/model_choice.h"
-
-/* Materials that the description's primitives have become, and errors met on the way: one pass reports all. */
-typedef struct builder {
-    graze_scene *scene;
-    const graze_scene_settings *settings;
-    const graze_report *report;
-    int *material_of; /* by primitive: index into scene->materials, or -1 */
-    graze_status status;
-} builder;
 
 const char *scene_name(const graze_scene *scene, int primitive) {
     return scene->primitives[primitive].id;
@@ -43,7 +35,7 @@ const char *scene_material_name(const graze_scene *scene, int primitive) {
     return modifier == RAD_VOID ? "void" : scene->primitives[modifier].original_id;
 }
 
-static void fail(builder *b, graze_status status) {
+void scene_fail(scene_builder *b, graze_status status) {
     if (status > b->status)
         b->status = status;
 }
@@ -62,9 +54,9 @@ static bool is_mirror(const scene_material *material) {
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
 }
 
-static int material_of(builder *, int modifier);
+static int material_of(scene_builder *, int modifier);
 
-static graze_status need_modifiers(builder *b) {
+static graze_status need_modifiers(scene_builder *b) {
     graze_scene *scene = b->scene;
     if (!scene->modifiers)
         scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
@@ -72,7 +64,7 @@ static graze_status need_modifiers(builder *b) {
 }
 
 /* The chain of a modifier; all that is needed for patterns is made when the first is met. */
-static graze_status find_chain(builder *b, int modifier, material_chain *chain) {
+static graze_status find_chain(scene_builder *b, int modifier, material_chain *chain) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[modifier];
     *chain = (material_chain){.material = modifier};
@@ -88,7 +80,7 @@ static graze_status find_chain(builder *b, int modifier, material_chain *chain) 
 }
 
 /* Both materials of a mixture. */
-static graze_status read_mixture(builder *b, scene_material *material, const material_modifier *mixture) {
+static graze_status read_mixture(scene_builder *b, scene_material *material, const material_modifier *mixture) {
     const rad_primitive *p = mixture->primitive;
     if (mixture->fore == RAD_VOID || mixture->back == RAD_VOID)
         return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
@@ -102,7 +94,7 @@ static graze_status read_mixture(builder *b, scene_material *material, const mat
     return GRAZE_OK;
 }
 
-static graze_status read_material(builder *b, scene_material *material, const rad_primitive *p) {
+static graze_status read_material(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->emits = emitter_is(p->type);
     if (material->emits) {
         graze_status status = emitter_to_light(&material->light, p, b->report);
@@ -132,10 +124,10 @@ static graze_status read_material(builder *b, scene_material *material, const ra
     return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);
 }
 
-static int add_material(builder *b, int modifier) {
+static int add_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain;
-    scene_material made = {.fore = -1, .back = -1};
+    scene_material made = {.seen_light = -1, .fore = -1, .back = -1};
     graze_status status = find_chain(b, modifier, &chain);
     if (!status) {
         made.primitive = chain.material;
@@ -144,7 +136,7 @@ static int add_material(builder *b, int modifier) {
                                : read_material(b, &made, &scene->primitives[chain.material]);
     }
     if (status != GRAZE_OK) {
-        fail(b, status);
+        scene_fail(b, status);
         return MATERIAL_REFUSED;
     }
     made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection && !made.wgmd;
@@ -154,28 +146,27 @@ static int add_material(builder *b, int modifier) {
 }
 
 /* The material of a modifier, or a negative number where it has none that can be used (reported). */
-static int material_of(builder *b, int modifier) {
+static int material_of(scene_builder *b, int modifier) {
     if (b->material_of[modifier] == -1)
         b->material_of[modifier] = add_material(b, modifier);
     return b->material_of[modifier];
 }
 
-/* The material of a surface, or a negative number where it has none that can be used (reported). */
-static int material_of_surface(builder *b, const rad_primitive *surface) {
+int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
     if (surface->modifier == RAD_VOID) {
-        fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
+        scene_fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
         return MATERIAL_REFUSED;
     }
     return material_of(b, surface->modifier);
 }
 
-static void add_light(builder *b, scene_light light) {
+static void add_light(scene_builder *b, scene_light light) {
     if (!rgb_is_black(light.radiance))
         b->scene->lights[b->scene->light_count++] = light;
 }
 
 /* A flat surface across its own orientation vector: told here, once, for no ray could tell it. */
-static void check_orientation(const builder *b, const rad_primitive *surface, const shape *s,
+static void check_orientation(const scene_builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
     if (!flat || material->emits || material->mixture || material->orientation || material->reflection ||
@@ -190,15 +181,15 @@ static void check_orientation(const builder *b, const rad_primitive *surface, co
                               "lies across the orientation vector of its material, which is then isotropic");
 }
 
-static void add_shape(builder *b, int primitive) {
+static void add_shape(scene_builder *b, int primitive) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[primitive];
-    int material = material_of_surface(b, p);
+    int material = scene_material_of_surface(b, p);
     size_t index = scene->surface_count;
     bool degenerate = false;
     graze_status status = shape_from_primitive(&scene->shapes[index], &degenerate, p, scene->memory, b->report);
     if (status != GRAZE_OK)
-        fail(b, status);
+        scene_fail(b, status);
     if (status != GRAZE_OK || degenerate || material < 0)
         return;
     scene->surfaces[index] = (scene_surface){
@@ -213,7 +204,7 @@ static void add_shape(builder *b, int primitive) {
     if (!scene->materials[material].emits)
         return;
     if (!shape_prepare_light(&scene->shapes[index], scene->memory))
-        fail(b, report_out_of_memory(b->report));
+        scene_fail(b, report_out_of_memory(b->report));
     scene_light light = scene->materials[material].light;
     light.shape = &scene->shapes[index];
     light.surface = (int)index;
@@ -223,9 +214,9 @@ static void add_shape(builder *b, int primitive) {
     add_light(b, light);
 }
 
-static void add_source(builder *b, int primitive) {
+static void add_source(scene_builder *b, int primitive) {
     const rad_primitive *p = &b->scene->primitives[primitive];
-    int material = material_of_surface(b, p);
+    int material = scene_material_of_surface(b, p);
     if (material < 0)
         return;
     if (!b->scene->materials[material].emits) {
@@ -234,8 +225,8 @@ static void add_source(builder *b, int primitive) {
     }
     const double *a = p->reals;
     if (!(a[3] > 0 && a[3] <= 360) || !(vec3_max_abs(vec3_make(a[0], a[1], a[2])) > 0)) {
-        fail(b, rad_primitive_error(b->report, p,
-                                    "needs 4 reals: a direction that is not null, and an angle in (0, 360]"));
+        scene_fail(b, rad_primitive_error(b->report, p,
+                                          "needs 4 reals: a direction that is not null, and an angle in (0, 360]"));
         return;
     }
     scene_light light = b->scene->materials[material].light;
@@ -267,13 +258,11 @@ static bool sources_are_apart(const graze_scene *scene) {
 }
 
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
-static void add_surfaces(builder *b, size_t count) {
+static void add_surfaces(scene_builder *b, size_t count) {
     graze_scene *scene = b->scene;
     for (size_t i = 0; i < count; i++) {
         const rad_primitive *p = &scene->primitives[i];
-        if (p->type == RAD_MESH || p->type == RAD_INSTANCE)
-            fail(b, rad_primitive_error(b->report, p, "%s is not supported yet", rad_type_name(p->type)));
-        else if (rad_type_is_surface(p->type) && p->type != RAD_SOURCE)
+        if (rad_type_is_surface(p->type) && p->type != RAD_SOURCE && p->type != RAD_MESH && p->type != RAD_INSTANCE)
             add_shape(b, (int)i);
     }
     scene->first_source = scene->light_count;
@@ -294,24 +283,71 @@ static bool needs_sights(const graze_scene *scene) {
     return false;
 }
 
-/* Arrays as large as they can become: surfaces and materials are primitives, lights are surfaces. */
-static graze_status allocate(builder *b, size_t count) {
+/* Arrays as large as they can become: surfaces and materials are primitives, lights are surfaces, or materials where
+ * they are only seen. */
+static graze_status allocate(scene_builder *b, size_t count) {
     graze_scene *scene = b->scene;
     size_t surfaces = 0;
     for (size_t i = 0; i < count; i++)
         surfaces += rad_type_is_surface(scene->primitives[i].type) != 0;
-    size_t modifiers = count - surfaces;
+    size_t modifiers = scene->primitive_count - surfaces;
     scene->memory = arena_create();
     scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
     scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
     scene->materials = calloc(modifiers + 1, sizeof *scene->materials);
-    scene->lights = calloc(surfaces + 1, sizeof *scene->lights);
-    b->material_of = malloc((count + 1) * sizeof *b->material_of);
+    scene->lights = calloc(scene->primitive_count + 1, sizeof *scene->lights);
+    b->material_of = malloc((scene->primitive_count + 1) * sizeof *b->material_of);
     if (!scene->memory || !scene->shapes || !scene->surfaces || !scene->materials || !scene->lights || !b->material_of)
         return report_out_of_memory(b->report);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < scene->primitive_count; i++)
         b->material_of[i] = -1;
     return GRAZE_OK;
+}
+
+static bool has_copies(const rad_primitive *primitives, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (primitives[i].type == RAD_MESH || primitives[i].type == RAD_INSTANCE)
+            return true;
+    return false;
+}
+
+/* From primitives to surfaces, materials and lights. `count` of the primitives are the scene's own. */
+static graze_status add_all(scene_builder *b, size_t count) {
+    graze_scene *scene = b->scene;
+    scene->primitives = rad_scene_primitives(scene->description, &scene->primitive_count);
+    b->status = scene_check_models(b->settings, scene->primitives, scene->primitive_count, b->report);
+    if (b->status == GRAZE_OK)
+        b->status = allocate(b, count);
+    if (b->status != GRAZE_OK)
+        return b->status;
+    scene_check_ambient(b->settings, scene->primitives, scene->primitive_count, b->report);
+    add_surfaces(b, count);
+    if (has_copies(scene->primitives, count) && b->status != GRAZE_SYSTEM_ERROR)
+        scene_add_copies(b);
+    return b->status;
+}
+
+static int threads_of(const scene_builder *b) {
+    return b->settings->threads > 1 ? b->settings->threads : 1;
+}
+
+static graze_status build_geometry(scene_builder *b) {
+    graze_scene *scene = b->scene;
+    size_t count = scene->part_count ? scene->part_count : 1;
+    geometry_group *groups = calloc(count, sizeof *groups);
+    if (!groups)
+        return report_out_of_memory(b->report);
+    groups[0] = (geometry_group){.shapes = scene->shapes, .shape_count = scene->surface_count};
+    for (size_t i = 0; i < scene->part_count; i++) {
+        const scene_part *part = &scene->parts[i];
+        groups[i] = (geometry_group){part->shapes, part->surface_count, part->placements, part->copy_count};
+    }
+    graze_status status =
+        geometry_build(&scene->geometry, groups, count, b->settings->threads > 1 ? b->settings->threads : 1, b->report);
+    free(groups);
+    if (status == GRAZE_OK && needs_sights(scene))
+        status = geometry_prepare_sights(scene->geometry, b->report);
+    return status;
 }
 
 graze_status graze_scene_load(graze_scene **out, const char *const *descriptions, size_t count,
@@ -321,30 +357,23 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     graze_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return report_out_of_memory(report);
-    builder b = {.scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
+    scene_builder b = {
+        .scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
     b.status = rad_scene_read(&scene->description, descriptions, count, report);
     if (b.status == GRAZE_OK) {
-        size_t primitive_count;
-        scene->primitives = rad_scene_primitives(scene->description, &primitive_count);
-        scene->primitive_count = primitive_count;
-        b.status = scene_check_models(b.settings, scene->primitives, primitive_count, report);
+        size_t own_count;
+        scene->primitives = rad_scene_primitives(scene->description, &own_count);
+        if (has_copies(scene->primitives, own_count))
+            b.status = rad_scene_read_parts(scene->description, report);
         if (b.status == GRAZE_OK)
-            b.status = allocate(&b, primitive_count);
-        if (b.status == GRAZE_OK)
-            scene_check_ambient(b.settings, scene->primitives, primitive_count, report);
-        if (b.status == GRAZE_OK)
-            add_surfaces(&b, primitive_count);
+            b.status = add_all(&b, own_count);
     }
-    int threads = b.settings->threads > 1 ? b.settings->threads : 1;
     if (b.status == GRAZE_OK)
-        b.status = light_patterns_prepare(scene, threads, report);
+        b.status = light_patterns_prepare(scene, threads_of(&b), report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
-        b.status = geometry_build(&scene->geometry, &(geometry_group){scene->shapes, scene->surface_count, NULL, 0}, 1,
-                                  threads, report);
-    if (b.status == GRAZE_OK && needs_sights(scene))
-        b.status = geometry_prepare_sights(scene->geometry, report);
+        b.status = build_geometry(&b);
     free(b.material_of);
     if (b.status != GRAZE_OK) {
         graze_scene_destroy(scene);
@@ -359,6 +388,16 @@ void graze_scene_destroy(graze_scene *scene) {
         return;
     geometry_destroy(scene->geometry);
     material_modifiers_destroy(scene->modifiers);
+    for (size_t i = 0; i < scene->part_count; i++) {
+        scene_part *part = &scene->parts[i];
+        if (i > 0) {
+            free(part->shapes);
+            free(part->surfaces);
+        }
+        free(part->placements);
+        free(part->copies);
+    }
+    free(scene->parts);
     free(scene->lights);
     free(scene->materials);
     free(scene->surfaces);

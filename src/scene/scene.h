@@ -44,6 +44,7 @@ typedef struct scene_light {
     double spot_focus;  /* how far behind the light its cone begins */
     vec3 center;        /* of a source: the unit direction towards it */
     double half_angle;  /* of a source, radians */
+    bool only_seen;     /* it is in a copy: no light for others, but of a glow beyond its radius */
 } scene_light;
 
 /* What a material does, with all that modifies it: it reflects, it shines, or it is one of two materials. */
@@ -59,6 +60,7 @@ typedef struct scene_material {
     const material_modifier *modifiers;      /* patterns and textures, or null */
     const material_modifier *mixture;        /* or null: */
     int fore, back;                          /* indices into materials */
+    int seen_light;                          /* index into lights of the one that surfaces in copies are; or -1 */
 } scene_material;
 
 typedef struct scene_surface {
@@ -68,6 +70,25 @@ typedef struct scene_surface {
     bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
 } scene_surface;
 
+/* An instance or a mesh in a part. */
+typedef struct scene_copy {
+    int part;              /* that it is a copy of */
+    bool replaces;         /* its own modifier stands for all modifiers in it: all its surfaces are */
+    scene_surface surface; /* this */
+} scene_copy;
+
+/* The scene itself, or what a file holds that instances or meshes name. */
+typedef struct scene_part {
+    shape *shapes;
+    scene_surface *surfaces; /* surface_count of them, as of the shapes */
+    size_t surface_count;
+    geometry_placement *placements;
+    scene_copy *copies; /* copy_count of them, as of the placements */
+    size_t copy_count;
+    const rad_mesh *mesh; /* or null; its triangles are the surfaces, in their order */
+    bool own_materials;   /* some copy of the mesh has no modifier of its own */
+} scene_part;
+
 struct graze_scene {
     rad_scene *description;
     const rad_primitive *primitives;
@@ -76,12 +97,15 @@ struct graze_scene {
     shape *shapes; /* surface_count of them, the same index as `surfaces` */
     scene_surface *surfaces;
     size_t surface_count;
+    scene_part *parts; /* the first is the scene itself; none where it has no copies of others */
+    size_t part_count;
     scene_material *materials;
     size_t material_count;
     material_modifiers *modifiers; /* null where no material has any */
     bool has_mirrors;
-    scene_light *lights; /* the shapes first, then the sources */
+    scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
+    size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
     bool sources_apart;  /* no direction is in two of them */
     light_tree light_tree;

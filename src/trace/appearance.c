@@ -1,6 +1,8 @@
 /* Evaluating the modifiers of a material at a hit. */
 #include "trace/appearance.h"
 
+#include "geometry/placed.h"
+#include "scene/surface.h"
 #include "trace/vertex.h"
 
 static material_ray ray_of(const path_hit *hit, double length) {
@@ -11,15 +13,60 @@ static material_ray ray_of(const path_hit *hit, double length) {
                           .last_distance = hit->distance};
 }
 
+/* What a hit's appearance is found by. */
+typedef struct encounter {
+    material_ray ray;
+    bool moved;              /* the material is written for another place: */
+    rad_transform transform; /* from there to the scene */
+    material_effect effect;  /* of the surface itself: a mesh's normal */
+} encounter;
+
+/* The ray there. */
+static void move(encounter *e) {
+    const rad_transform *t = &e->transform;
+    e->ray.point = placed_inverse_point(t, e->ray.point);
+    e->ray.direction = placed_inverse_direction(t, e->ray.direction);
+    e->ray.normal = placed_inverse_direction(t, e->ray.normal);
+    e->ray.distance /= t->scale;
+    e->ray.last_distance /= t->scale;
+    e->effect.perturbation = placed_inverse_direction(t, e->effect.perturbation);
+}
+
+static encounter meet(const graze_scene *scene, const path_hit *hit, double length) {
+    encounter e = {.ray = ray_of(hit, length), .effect = {.color = {1, 1, 1}}};
+    if (hit->surface < (int64_t)scene->surface_count)
+        return e;
+    scene_mesh_point mesh = scene_mesh_point_at(scene, hit->surface, hit->point);
+    if (mesh.has_normal)
+        e.effect.perturbation = vec3_subtract(mesh.normal, hit->normal);
+    e.ray.u = mesh.uv[0];
+    e.ray.v = mesh.uv[1];
+    e.moved = scene_material_is_moved(scene, hit->surface, &e.transform);
+    if (e.moved)
+        move(&e);
+    return e;
+}
+
+/* A unit vector of the scene, as the material's functions know it. */
+static vec3 as_written(const encounter *e, vec3 direction) {
+    return e->moved ? placed_inverse_direction(&e->transform, direction) : direction;
+}
+
+material_ray appearance_ray(const graze_scene *scene, const path_hit *hit, double length) {
+    return meet(scene, hit, length).ray;
+}
+
 static material_effect add_effect(const material_modifier *modifiers, const material_ray *ray, material_effect before) {
     material_effect e = material_modify(modifiers, ray);
     return (material_effect){rgb_multiply(before.color, e.color), vec3_add(before.perturbation, e.perturbation)};
 }
 
 /* Perturbations are for the surface's own normal. */
-static vec3 lean(const path_hit *hit, const material_effect *e) {
+static vec3 lean(const path_hit *hit, const encounter *of, const material_effect *e) {
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal;
     vec3 perturbation = hit->behind ? vec3_negate(e->perturbation) : e->perturbation;
+    if (of->moved)
+        perturbation = placed_normal(&of->transform, perturbation);
     return material_perturbed_normal(normal, perturbation, hit->direction);
 }
 
@@ -30,38 +77,41 @@ static rgb colored(rgb color, rgb pattern) {
                  fmin(fmax(c.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
-static void lean_vertex(const path_hit *hit, const material_effect *e, vertex *v, vec3 *normal) {
-    *normal = lean(hit, e);
+static void lean_vertex(const path_hit *hit, const encounter *of, const material_effect *e, vertex *v, vec3 *normal) {
+    *normal = lean(hit, of, e);
     v->leans = normal->x != v->normal.x || normal->y != v->normal.y || normal->z != v->normal.z;
 }
 
 /* The function's part is for lights, the diffuse part for these, too; all else is reflected by the whole colour. */
-static void prepare_function(const path_hit *hit, const material_ray *ray, const material_reflection *r,
+static void prepare_function(const path *p, const path_hit *hit, const encounter *of, const material_reflection *r,
                              const material_effect *e, vertex *v) {
     rgb color = colored(r->color, e->color);
     const graze_material diffuse = {.kind = GRAZE_PLASTIC, .color = rgb_scale(1 - r->specularity, color)};
     vec3 normal;
-    lean_vertex(hit, e, v, &normal);
+    lean_vertex(hit, of, e, v, &normal);
     graze_surface_prepare(&v->shading, &diffuse, normal, vec3_negate(hit->direction), NULL);
     v->ambient = color;
     v->gloss_is_ambient = false;
     v->function = r;
-    v->function_point = (material_reflection_point){*ray, normal, color};
-    v->function_point.ray.normal = v->normal;
+    v->function_scene = of->moved ? p->context->scene : NULL;
+    v->function_point = (material_reflection_point){of->ray, as_written(of, normal), color};
+    v->function_point.ray.normal = as_written(of, v->normal);
     v->function_color = rgb_scale(r->specularity, r->metal ? color : rgb_gray(1));
 }
 
-static void prepare_reflector(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
+static void prepare_reflector(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                               const material_effect *e, vertex *v) {
     graze_material reflector = m->reflector;
     reflector.color = colored(reflector.color, e->color);
     if (m->orientation) {
-        material_ray own = *ray;
-        own.normal = v->normal;
+        material_ray own = of->ray;
+        own.normal = as_written(of, v->normal);
         reflector.orientation = material_orientation_at(m->orientation, &own);
     }
+    if (of->moved && reflector.has_orientation)
+        reflector.orientation = rad_transform_vector(&of->transform, reflector.orientation);
     vec3 normal;
-    lean_vertex(hit, e, v, &normal);
+    lean_vertex(hit, of, e, v, &normal);
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
     vertex_find_ambient(p, v, &reflector);
 }
@@ -103,20 +153,33 @@ static bool draw(const path *p, double share) {
     return random[0] < share;
 }
 
+/* From where its functions see it. */
+static void bring_to_scene(const encounter *of, graze_surface *s) {
+    if (!of->moved)
+        return;
+    s->n = placed_normal(&of->transform, s->n);
+    s->x = placed_normal(&of->transform, s->x);
+    s->y = vec3_cross(s->n, s->x);
+    s->view = placed_normal(&of->transform, s->view);
+    s->local_view = vec3_make(vec3_dot(s->view, s->x), vec3_dot(s->view, s->y), vec3_dot(s->view, s->n));
+}
+
 /* One surface where both parts have the same normal, as they mostly do; else one of them is drawn, for both. */
-static void prepare_wgmd(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
+static void prepare_wgmd(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                          material_effect before, vertex *v) {
     const material_wgmd *w = m->wgmd;
-    material_effect own = m->modifiers ? add_effect(m->modifiers, ray, before) : before;
-    material_effect shine = w->specular_inherits ? own : add_effect(w->specular_modifiers, ray, before);
-    const material_wgmd_point at = {.ray = *ray,
+    material_effect own = m->modifiers ? add_effect(m->modifiers, &of->ray, before) : before;
+    material_effect shine = w->specular_inherits ? own : add_effect(w->specular_modifiers, &of->ray, before);
+    const material_wgmd_point at = {.ray = of->ray,
                                     .model = m->reflector.model,
-                                    .diffuse_normal = lean(hit, &own),
-                                    .specular_normal = lean(hit, &shine),
+                                    .diffuse_normal = as_written(of, lean(hit, of, &own)),
+                                    .specular_normal = as_written(of, lean(hit, of, &shine)),
                                     .diffuse_color = colored(rgb_gray(1), own.color),
                                     .specular_color = colored(rgb_gray(1), shine.color)};
     graze_surface diffuse, specular;
     material_wgmd_prepare(w, &at, &diffuse, &specular);
+    bring_to_scene(of, &diffuse);
+    bring_to_scene(of, &specular);
     v->function = NULL;
     v->shading = specular;
     v->shading.diffuse = diffuse.diffuse;
@@ -131,29 +194,29 @@ static void prepare_wgmd(const path *p, const path_hit *hit, const material_ray 
     vertex_find_ambient(p, v, &threshold);
 }
 
-static void prepare(const path *p, const path_hit *hit, const material_ray *ray, const scene_material *m,
-                    material_effect e, vertex *v) {
+static void prepare(const path *p, const path_hit *hit, const encounter *of, const scene_material *m, material_effect e,
+                    vertex *v) {
     const scene_material *materials = p->context->scene->materials;
     if (m->wgmd) {
-        prepare_wgmd(p, hit, ray, m, e, v);
+        prepare_wgmd(p, hit, of, m, e, v);
         return;
     }
     if (m->modifiers)
-        e = add_effect(m->modifiers, ray, e);
+        e = add_effect(m->modifiers, &of->ray, e);
     if (m->reflection) {
-        prepare_function(hit, ray, m->reflection, &e, v);
+        prepare_function(p, hit, of, m->reflection, &e, v);
         return;
     }
     if (!m->mixture) {
-        prepare_reflector(p, hit, ray, m, &e, v);
+        prepare_reflector(p, hit, of, m, &e, v);
         return;
     }
-    double share = material_mixture_share(m->mixture, ray);
+    double share = material_mixture_share(m->mixture, &of->ray);
     vertex fore = *v, back = fore;
     if (share > 0)
-        prepare(p, hit, ray, &materials[m->fore], e, &fore);
+        prepare(p, hit, of, &materials[m->fore], e, &fore);
     if (share < 1)
-        prepare(p, hit, ray, &materials[m->back], e, &back);
+        prepare(p, hit, of, &materials[m->back], e, &back);
     if (share == 0 || share == 1) {
         *v = share == 0 ? back : fore;
     } else if (!blend_vertices(v, share, &fore, &back)) {
@@ -163,19 +226,19 @@ static void prepare(const path *p, const path_hit *hit, const material_ray *ray,
 }
 
 void appearance_prepare(const path *p, const path_hit *hit, const scene_material *m, vertex *v) {
-    const material_ray ray = ray_of(hit, p->length);
-    prepare(p, hit, &ray, m, (material_effect){.color = {1, 1, 1}}, v);
+    const encounter of = meet(p->context->scene, hit, p->length);
+    prepare(p, hit, &of, m, of.effect, v);
 }
 
 vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double length) {
-    const scene_material *m = &scene->materials[scene->surfaces[hit->surface].material];
-    const material_ray ray = ray_of(hit, length);
-    material_effect e = {.color = {1, 1, 1}};
+    const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    const encounter of = meet(scene, hit, length);
+    material_effect e = of.effect;
     for (;;) {
         if (m->modifiers)
-            e = add_effect(m->modifiers, &ray, e);
+            e = add_effect(m->modifiers, &of.ray, e);
         if (!m->mixture)
-            return lean(hit, &e);
-        m = &scene->materials[material_mixture_share(m->mixture, &ray) >= 0.5 ? m->fore : m->back];
+            return lean(hit, &of, &e);
+        m = &scene->materials[material_mixture_share(m->mixture, &of.ray) >= 0.5 ? m->fore : m->back];
     }
 }

@@ -1,12 +1,26 @@
-/* Surfaces whose material has patterns, textures, or functions, or is a mixture: as they are at a hit. */
+/* Surfaces whose material has patterns, textures, or functions, or is a mixture, and surfaces in copies, which are
+ * turned, or have normals of their own at a mesh's points: as they are at a hit. */
 #ifndef TRACE_APPEARANCE_H
 #define TRACE_APPEARANCE_H
 
 #include "trace/path_state.h"
 
-/* Prepares the vertex's shading, and what depends on it, for a material that is not plain; `v->normal` must be set.
+/* Whether what the material says is all there is to the surface. */
+static inline bool appearance_is_plain(const graze_scene *scene, const scene_material *m, int64_t surface) {
+    return m->plain && surface < (int64_t)scene->surface_count;
+}
+
+/* Whether its normal may lean: what shines has no textures, but may be a mesh. */
+static inline bool appearance_has_normal(const graze_scene *scene, const scene_material *m, int64_t surface) {
+    return m->emits ? surface >= (int64_t)scene->surface_count : !appearance_is_plain(scene, m, surface);
+}
+
+/* Prepares the vertex's shading, and what depends on it, for a surface that is not plain; `v->normal` must be set.
  * Where two materials are mixed that cannot be prepared as one, one of them is drawn. */
 void appearance_prepare(const path *, const path_hit *, const scene_material *, vertex *v);
+
+/* The ray that has hit a surface, as its material's functions know it: in a copy, as seen in what is copied. */
+material_ray appearance_ray(const graze_scene *, const path_hit *, double length);
 
 /* The normal that reflection goes by at a hit, on the viewer's side; of a mixture that of the larger share. `length` is
  * that of the path before the ray. */

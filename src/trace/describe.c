@@ -1,6 +1,7 @@
 /* Between rays and hits of the public header and those of paths. */
 #include "trace/describe.h"
 
+#include "scene/surface.h"
 #include "trace/appearance.h"
 
 graze_hit describe_nothing(vec3 origin) {
@@ -11,13 +12,19 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
     graze_hit hit = {.distance = found->distance, .point = found->point};
     int primitive = -1;
     if (found->surface >= 0) {
-        primitive = scene->surfaces[found->surface].primitive;
+        const scene_surface surface = scene_surface_at(scene, found->surface);
+        const scene_material *material = &scene->materials[surface.material];
+        primitive = surface.primitive;
         hit.normal = found->normal;
-        bool turned = found->behind && !scene->materials[scene->surfaces[found->surface].material].emits;
+        bool turned = found->behind && !material->emits;
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
-        const scene_material *material = &scene->materials[scene->surfaces[found->surface].material];
-        if (!material->emits && !material->plain)
-            hit.shading_normal = appearance_normal(scene, found, 0);
+        scene_mesh_point mesh = scene_mesh_point_at(scene, found->surface, found->point);
+        hit.uv[0] = mesh.uv[0];
+        hit.uv[1] = mesh.uv[1];
+        if (appearance_has_normal(scene, material, found->surface)) {
+            vec3 normal = appearance_normal(scene, found, 0);
+            hit.shading_normal = found->behind != turned ? vec3_negate(normal) : normal;
+        }
     } else if (found->light >= 0) {
         primitive = scene->lights[found->light].primitive;
         hit.normal = hit.shading_normal = vec3_negate(found->direction);

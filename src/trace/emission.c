@@ -1,11 +1,14 @@
 /* Light from emitters that reflections lead to, by Radiance's rules of what counts. */
 #include "trace/emission.h"
 
+#include "trace/appearance.h"
 #include "trace/known_light.h"
 
 /* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
 static double found_weight(const path *p, const path_hit *hit, light_role role) {
     const scattering *last = &p->last;
+    if (p->context->scene->lights[hit->light].only_seen)
+        return 1;
     bool rival = role == LIGHT_DIRECT ? context_samples_lights(p->context->settings)
                                       : context_samples_glows(p->context->settings);
     if (role == LIGHT_DIRECT && hit->passed)
@@ -23,6 +26,10 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
 
 static rgb patterned(const path *p, const path_hit *hit, rgb radiance) {
     const scene_light *light = &p->context->scene->lights[hit->light];
+    if (light->only_seen && light->modifiers) {
+        const material_ray ray = appearance_ray(p->context->scene, hit, p->length);
+        return light_patterned_for(light, radiance, &ray);
+    }
     return light_patterned(light, radiance, hit->point, hit->direction, hit->normal, hit->distance, p->length);
 }
 

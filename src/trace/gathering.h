@@ -10,12 +10,14 @@
 
 typedef struct vertex {
     vec3 point;
-    vec3 normal; /* of the surface as it stands in space, on the viewer's side; that of `shading` may lean */
-    int surface; /* -1: a sensor */
+    vec3 normal;     /* of the surface as it stands in space, on the viewer's side; that of `shading` may lean */
+    int64_t surface; /* -1: a sensor */
     graze_surface shading;
     rgb ambient; /* reflectance of the ambient term: diffuse, and lobes below the specular threshold */
     bool gloss_is_ambient;
     const material_reflection *function; /* lights are reflected by it, beside diffusely; null: none */
+    const graze_scene
+        *function_scene; /* where the surface is in a copy, which the function's point is seen from; else null */
     material_reflection_point function_point;
     rgb function_color; /* to multiply its values by */
     bool leans;         /* the normal of `shading` is not the surface's own */

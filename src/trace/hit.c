@@ -2,8 +2,9 @@
 #include "trace/hit.h"
 
 #include "scene/light.h"
+#include "scene/surface.h"
 
-path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int from) {
+path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {
     const graze_scene *scene = context->scene;
     path_hit hit = {.surface = -1, .light = -1, .distance = GEOMETRY_FAR, .point = origin, .direction = direction};
     geometry_ray ray = {.origin = origin, .direction = direction, .far = limit, .from = from};
@@ -13,7 +14,7 @@ path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, dou
         bool behind = vec3_dot(found.normal, direction) > 0;
         if (!behind || context->settings->back_faces_visible) {
             hit.surface = found.surface;
-            hit.light = scene->surfaces[found.surface].light;
+            hit.light = scene_surface_at(scene, found.surface).light;
             hit.distance = travelled + found.distance;
             hit.point = found.point;
             hit.normal = found.normal;

@@ -7,7 +7,7 @@
 
 /* What a ray meets: nothing, a source, or a surface. */
 typedef struct path_hit {
-    int surface;                   /* -1: none */
+    int64_t surface;               /* -1: none */
     int light;                     /* of the surface or the source; -1: none */
     double distance;               /* from the ray's origin; GEOMETRY_FAR for a source or nothing */
     vec3 point, normal, direction; /* the surface's own normal; the ray's direction */
@@ -16,6 +16,6 @@ typedef struct path_hit {
 } path_hit;
 
 /* Finds what the ray meets first, passing hidden back faces. */
-path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int from);
+path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int64_t from);
 
 #endif

@@ -8,6 +8,7 @@
 #include "base/angle.h"
 #include "base/parallel.h"
 #include "base/report.h"
+#include "scene/surface.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
 
@@ -91,8 +92,9 @@ static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, co
     vec3 at = vec3_add_scaled(half->offset, 1 / edge, record->point);
     if (!(vec3_max_abs(at) < LARGEST_PLACE))
         return NO_KEY;
-    const shape *s = &cache->scene->shapes[record->surface];
-    bool large = s->kind == SHAPE_POLYGON && s->polygon.area >= edge * edge / 4;
+    bool flat;
+    double area = scene_surface_area(cache->scene, record->surface, &flat);
+    bool large = flat && area >= edge * edge / 4;
     uint64_t key = mixed((uint64_t)(int64_t)ilogb(edge), large ? (uint64_t)record->surface + 1 : 0);
     key = mixed(key, (uint64_t)(int64_t)floor(at.x));
     key = mixed(key, (uint64_t)(int64_t)floor(at.y));

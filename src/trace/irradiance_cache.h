@@ -23,7 +23,7 @@ enum { IRRADIANCE_PARTS = 8 };
 /* Where a pilot path has come to. */
 typedef struct irradiance_record {
     vec3 point, normal; /* the normal on the side that the path came from */
-    int surface;        /* -1: nowhere */
+    int64_t surface;    /* -1: nowhere */
     double distance;    /* that it came from */
 } irradiance_record;
 

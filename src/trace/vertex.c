@@ -2,6 +2,8 @@
 #include "trace/vertex.h"
 
 #include "base/angle.h"
+#include "geometry/placed.h"
+#include "scene/surface.h"
 #include "trace/appearance.h"
 
 /* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
@@ -27,6 +29,9 @@ void vertex_find_ambient(const path *p, vertex *v, const graze_material *m) {
 rgb vertex_function_value(const vertex *v, vec3 direction) {
     if (!v->function || !(vec3_dot(direction, v->shading.n) > 0))
         return rgb_gray(0);
+    rad_transform t;
+    if (v->function_scene && scene_material_is_moved(v->function_scene, v->surface, &t))
+        direction = placed_inverse_direction(&t, direction);
     return rgb_scale(material_reflection_value(v->function, &v->function_point, direction), v->function_color);
 }
 
@@ -34,18 +39,19 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     if (hit->surface < 0 || rgb_is_black(p->throughput))
         return false;
     const graze_scene *scene = p->context->scene;
-    const scene_material *material = &scene->materials[scene->surfaces[hit->surface].material];
+    const scene_surface surface = scene_surface_at(scene, hit->surface);
+    const scene_material *material = &scene->materials[surface.material];
     if (material->emits)
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
     v->point = hit->point;
     v->normal = normal;
     v->surface = hit->surface;
-    v->no_ambient = scene->surfaces[hit->surface].no_ambient;
+    v->no_ambient = surface.no_ambient;
     v->leans = v->drawn = false;
     v->function = NULL;
     bool irradiance = p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT;
-    if (!irradiance && !material->plain) {
+    if (!irradiance && !appearance_is_plain(scene, material, hit->surface)) {
         appearance_prepare(p, hit, material, v);
         return true;
     }
@@ -70,7 +76,7 @@ bool vertex_keep_part(vertex *v, graze_part part) {
     return part != GRAZE_MIRRORED || mirror;
 }
 
-vertex vertex_of_point(vec3 point, vec3 normal, int surface) {
+vertex vertex_of_point(vec3 point, vec3 normal, int64_t surface) {
     vertex v = {.point = point, .normal = normal, .surface = surface, .shading = probe(normal, normal)};
     v.ambient = v.shading.diffuse;
     return v;

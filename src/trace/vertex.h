@@ -20,6 +20,6 @@ bool vertex_keep_part(vertex *, graze_part);
 vertex vertex_of_sensor(vec3 point, vec3 normal);
 
 /* The same at a point of a surface. */
-vertex vertex_of_point(vec3 point, vec3 normal, int surface);
+vertex vertex_of_point(vec3 point, vec3 normal, int64_t surface);
 
 #endif

@@ -68,7 +68,7 @@ static inline shape make_shape(rad_type type, uint32_t count, const double *real
 }
 
 static inline shape make_polygon(uint32_t count, const vec3 *vertices) {
-    double *reals = calloc(3 * (size_t)count + 1, sizeof *reals);
+    double *reals = arena_allocate(memory, 3 * (size_t)count * sizeof *reals);
     assert_non_null(reals);
     for (uint32_t i = 0; i < count; i++) {
         reals[3 * i] = vertices[i].x;
@@ -76,7 +76,6 @@ static inline shape make_polygon(uint32_t count, const vec3 *vertices) {
         reals[3 * i + 2] = vertices[i].z;
     }
     shape s = make_shape(RAD_POLYGON, 3 * count, reals);
-    free(reals);
     return s;
 }
 

@@ -72,6 +72,9 @@ static const char *const commands[] = {
     "genbox red box 1 2 3 | xform -mx | xform -my",
     "echo '!xform -t 1 0 0 sub/inner.rad' | xform -rz 90",
     "xform -rz 20 < objects.rad",
+    "cat lines.txt | xform -f - objects.rad",
+    "cat lines.txt | xform -n x -f - -a 2 -t 0 0 5 objects.rad | xform -mx",
+    "xform -f - objects.rad < lines.txt",
     "for i in 1 2; do cat objects.rad; done | xform -s 2",
     "xform -t 1 0 0 sub/part.rad; cat objects.rad | xform -s 3",
 };

@@ -23,7 +23,7 @@ static void unsupported_types_are_refused_by_name(void **state) {
                    "not supported");
     assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
-                   "not supported");
+                   "cannot find octree file \"other.oct\"");
     assert_refused("void specfile p 1 noise 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
                    ":1:1: specfile p", "not supported");
 }

@@ -201,8 +201,8 @@ static void append_letter(const ray_output *o, char letter, record_buffer *out, 
     case 'X':
         append_number(o, out, v->hit->distance);
         break;
-    case 'c': /* only meshes have local coordinates */
-        append_numbers(o, out, (const double[]){0, 0}, 2);
+    case 'c':
+        append_numbers(o, out, v->hit->uv, 2);
         break;
     case 'p':
         append_vec3(o, out, v->hit->point);

@@ -1,0 +1,25 @@
+/* A scene being built, as the files that build it see it. */
+#ifndef SCENE_BUILDER_H
+#define SCENE_BUILDER_H
+
+#include "scene/scene.h"
+
+/* Materials that the description's primitives have become, and errors met on the way: one pass reports all. */
+typedef struct scene_builder {
+    graze_scene *scene;
+    const graze_scene_settings *settings;
+    const graze_report *report;
+    int *material_of; /* by primitive: index into scene->materials, or -1 */
+    graze_status status;
+} scene_builder;
+
+/* Notes that something has gone wrong, which has been reported. */
+void scene_fail(scene_builder *, graze_status);
+
+/* The material of a surface, or a negative number where it has none that can be used (reported). */
+int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
+
+/* Builds what the instances and meshes of all parts are copies of; graze_scene.parts are then filled in. */
+void scene_add_copies(scene_builder *);
+
+#endif

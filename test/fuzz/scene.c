@@ -1,0 +1,33 @@
+/* Fuzz target: scene files, and octrees in their place. Whatever they hold is read or refused; and what is read is fit
+ * to use. Commands are taken apart, and xform is done, but nothing is run. */
+#include "fuzz/scene_files.h"
+
+/* Large arrays take long and prove nothing. */
+static bool has_large_array(const uint8_t *data, size_t size) {
+    int arrays = 0, digits = 0;
+    for (size_t i = 0; i < size; i++) {
+        arrays += i > 0 && data[i - 1] == '-' && (data[i] == 'a' || data[i] == 'f');
+        digits = data[i] >= '0' && data[i] <= '9' ? digits + 1 : 0;
+        if (arrays > 3 || (arrays > 0 && digits > 1))
+            return true;
+    }
+    return false;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    int errors = 0;
+    const graze_report report = {count_error, &errors};
+    const char *name = input_file.name = "input.rad";
+    if (has_large_array(data, size))
+        return 0;
+    input_file.data = data;
+    input_file.size = size;
+    rad_scene *scene;
+    graze_status status = rad_scene_read(&scene, &name, 1, &report);
+    MUST(status == GRAZE_OK || status == GRAZE_INPUT_ERROR);
+    MUST((status == GRAZE_OK) == (scene != NULL) && (status == GRAZE_OK) == (errors == 0) && errors <= 20);
+    if (scene)
+        check_primitives(scene);
+    rad_scene_destroy(scene);
+    return 0;
+}

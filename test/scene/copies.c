@@ -1,0 +1,217 @@
+/* Instances and meshes as scenes have them: names, materials, lights, fingerprints. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <unistd.h>
+
+#include "../rad/binary_writer.h"
+#include "scene/fingerprint.h"
+#include "scene/surface.h"
+#include "support/scene_text.h"
+
+static int enter_directory(void **state) {
+    static char name[] = "/tmp/graze-copies-XXXXXX";
+    *state = name;
+    return mkdtemp(name) ? chdir(name) : -1;
+}
+
+static int leave_directory(void **state) {
+    char command[64];
+    snprintf(command, sizeof command, "rm -r %s", (const char *)*state);
+    return chdir("/") || system(command);
+}
+
+static void write_file(const char *name, const void *bytes, size_t length) {
+    FILE *out = fopen(name, "w");
+    assert_non_null(out);
+    assert_int_equal(fwrite(bytes, 1, length, out), length);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* An octree of one scene file of so many primitives. */
+static void write_octree(const char *octree, const char *file, const char *text, int count) {
+    binary b = {.length = 0};
+    put_octree_head(&b, 4);
+    put_text(&b, file);
+    put_text(&b, "");
+    put_integer(&b, count, 4);
+    put_integer(&b, 0, 1);
+    write_file(octree, b.bytes, b.length);
+    write_file(file, text, strlen(text));
+}
+
+/* A mesh of one triangle, in x + y <= 1, with normals; its only material is the text's `type`. */
+static void write_mesh(const char *name, const char *type, int material, int normal) {
+    binary b = {.length = 0};
+    put_line(&b, "#?RADIANCE\nobj2mesh\nFORMAT=Radiance_tmesh\n\n");
+    put_integer(&b, 319 + 4, 2);
+    for (int i = 0; i < 4; i++)
+        put_text(&b, i < 3 ? "0" : "2");
+    for (int i = 0; i < 4; i++)
+        put_real(&b, 0);
+    put_integer(&b, 0, 1);
+    put_text(&b, type);
+    put_text(&b, "");
+    put_integer(&b, 0, 1);
+    put_integer(&b, -1, 4);
+    put_text(&b, "own");
+    put_integer(&b, 0, 2);
+    int reals = strcmp(type, "light") ? strcmp(type, "glow") ? 5 : 4 : 3;
+    put_integer(&b, reals, 2);
+    for (int i = 0; i < reals; i++)
+        put_real(&b, i < 3 ? .5 : 0);
+    put_integer(&b, 255, 1);
+    put_integer(&b, 1, 4);
+    put_integer(&b, 3, 1);
+    put_integer(&b, 3, 2);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            put_integer(&b, k + 1 == i ? INT64_C(1) << 31 : 0, 4);
+    for (int i = 0; i < 3; i++)
+        put_integer(&b, normal, 4);
+    put_integer(&b, 1, 2);
+    for (int i = 0; i < 3; i++)
+        put_integer(&b, i, 1);
+    put_integer(&b, 1, 2);
+    put_integer(&b, material, 2);
+    put_integer(&b, 0, 2);
+    put_integer(&b, 0, 2);
+    write_file(name, b.bytes, b.length);
+}
+
+static graze_scene *load(const char *text) {
+    graze_scene *scene = scene_from_text(text);
+    if (!scene)
+        fail_msg("%s", messages);
+    return scene;
+}
+
+static void assert_refused(const char *text, const char *reason) {
+    graze_scene *scene = scene_from_text(text);
+    if (scene || !strstr(messages, reason))
+        fail_msg("wanted '%s', got: %s", reason, scene ? "no error" : messages);
+}
+
+static int64_t hit(const graze_scene *scene, vec3 origin, vec3 direction) {
+    geometry_ray ray = {origin, vec3_normalize(direction), GEOMETRY_FAR, -1};
+    geometry_hit found;
+    (void)geometry_intersect(scene->geometry, &ray, &found);
+    return found.surface;
+}
+
+#define BASE "void plastic gray 0 0 5 .5 .5 .5 0 0\ngray sphere ball 0 0 4 0 0 9 1\n"
+
+static void modifiers_of_instances_replace_those_within(void **state) {
+    (void)state;
+    write_octree("inner.oct", "inner.rad", "void plastic own 0 0 5 .1 .1 .1 0 0\nown sphere in 0 0 4 0 0 0 1\n", 2);
+    write_octree("outer.oct", "outer.rad",
+                 "void plastic red 0 0 5 .9 .1 .1 0 0\nvoid instance a 1 inner.oct 0 0\n"
+                 "red instance b 5 inner.oct -t 3 0 0 0 0\n",
+                 3);
+    graze_scene *scene = load(BASE "void instance x 1 outer.oct 0 0\ngray instance y 5 outer.oct -t 0 5 0 0 0\n");
+    const struct {
+        double x, y;
+        const char *surface, *modifier;
+    } cases[] = {{0, 0, "in", "own"}, {3, 0, "b", "red"}, {0, 5, "y", "gray"}, {3, 5, "y", "gray"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        int64_t number = hit(scene, vec3_make(cases[i].x, cases[i].y, -5), vec3_make(0, 0, 1));
+        assert_true(number >= 1);
+        scene_surface s = scene_surface_at(scene, number);
+        assert_string_equal(scene_name(scene, s.primitive), cases[i].surface);
+        assert_string_equal(scene_modifier_name(scene, s.primitive), cases[i].modifier);
+        assert_int_equal(s.light, -1);
+        rad_transform t;
+        bool moved = scene_material_is_moved(scene, number, &t);
+        assert_true(moved == (cases[i].y == 0));
+    }
+    graze_scene_destroy(scene);
+}
+
+static void lights_in_copies_are_only_seen(void **state) {
+    (void)state;
+    write_octree("lamp.oct", "lamp.rad",
+                 "void light l 0 0 3 2 2 2\nl sphere a 0 0 4 0 0 0 1\nl sphere b 0 0 4 3 0 0 1\n"
+                 "void glow g 0 0 4 1 1 1 0\ng sphere c 0 0 4 6 0 0 1\nl source s 0 0 4 0 0 1 1\n",
+                 6);
+    graze_scene *scene = load(BASE "void instance x 1 lamp.oct 0 0\n");
+    assert_int_equal(scene->light_count, 0);
+    assert_int_equal(scene->seen_light_count, 2);
+    const char *first = strstr(messages, "sphere a: shines, but lights nothing");
+    assert_non_null(first);
+    assert_null(strstr(messages, "sphere b"));
+    assert_null(strstr(messages, "sphere c"));
+    assert_non_null(strstr(messages, "source s: a source in an instance does nothing"));
+    int light = scene_surface_at(scene, hit(scene, vec3_make(3, 0, -5), vec3_make(0, 0, 1))).light;
+    assert_int_equal(light, 0);
+    assert_true(scene->lights[light].only_seen && scene->lights[light].radiance.r == 2);
+    graze_scene_destroy(scene);
+    assert_refused(BASE "void light l 0 0 3 1 1 1\nl instance x 1 lamp.oct 0 0\n",
+                   "instance x: instances cannot be lights");
+    write_mesh("lamp.rtm", "plastic", 0, 0);
+    assert_refused(BASE "void light l 0 0 3 1 1 1\nl mesh x 1 lamp.rtm 0 0\n", "mesh x: meshes cannot be lights");
+    graze_scene_destroy(load(BASE "void glow l 0 0 4 1 1 1 0\nl mesh x 1 lamp.rtm 0 0\n"));
+}
+
+static void meshes_need_materials(void **state) {
+    (void)state;
+    write_mesh("bare.rtm", "plastic", -1, 0);
+    assert_refused(BASE "void mesh x 1 bare.rtm 0 0\n", "mesh x: its modifier is void, but \"");
+    graze_scene *scene = load(BASE "gray mesh x 1 bare.rtm 0 0\n");
+    scene_surface s = scene_surface_at(scene, hit(scene, vec3_make(.2, .2, -1), vec3_make(0, 0, 1)));
+    assert_string_equal(scene_name(scene, s.primitive), "x");
+    graze_scene_destroy(scene);
+}
+
+static void normals_of_meshes_turn_with_them(void **state) {
+    (void)state;
+    write_mesh("smooth.rtm", "plastic", 0, 8 | 16 | 2); /* (0, -1, 0) */
+    graze_scene *scene = load(BASE "void mesh x 10 smooth.rtm -mx -rz 90 -s 3 -t 0 0 1 0 0\n");
+    /* x of the triangle goes to -y of the scene, y to -x */
+    int64_t number = hit(scene, vec3_make(-.5, -.5, -1), vec3_make(0, 0, 1));
+    assert_true(number >= 1);
+    scene_surface s = scene_surface_at(scene, number);
+    assert_string_equal(scene_name(scene, s.primitive), "M-Tri");
+    assert_string_equal(scene_modifier_name(scene, s.primitive), "own");
+    scene_mesh_point m = scene_mesh_point_at(scene, number, vec3_make(-.5, -.5, 1));
+    assert_true(m.has_normal && !m.has_uv);
+    assert_true(vec3_length(vec3_subtract(m.normal, vec3_make(1, 0, 0))) < 1e-3);
+    bool flat;
+    assert_true(fabs(scene_surface_area(scene, number, &flat) - 4.5) < 1e-6 && flat);
+    graze_scene_destroy(scene);
+}
+
+static uint64_t fingerprint(const char *text) {
+    graze_scene *scene = load(text);
+    uint64_t f = scene_fingerprint(scene);
+    graze_scene_destroy(scene);
+    return f;
+}
+
+static void fingerprints_know_all_files(void **state) {
+    (void)state;
+    const char *octree = BASE "void instance x 1 inner.oct 0 0\n", *mesh = BASE "void mesh x 1 print.rtm 0 0\n";
+    write_octree("inner.oct", "inner.rad", "void plastic own 0 0 5 .1 .1 .1 0 0\nown sphere in 0 0 4 0 0 0 1\n", 2);
+    uint64_t before = fingerprint(octree);
+    assert_true(before == fingerprint(octree));
+    write_octree("inner.oct", "inner.rad", "void plastic own 0 0 5 .1 .1 .1 0 0\nown sphere in 0 0 4 0 0 0 2\n", 2);
+    assert_true(before != fingerprint(octree));
+    write_mesh("print.rtm", "plastic", 0, 8);
+    before = fingerprint(mesh);
+    assert_true(before == fingerprint(mesh));
+    write_mesh("print.rtm", "plastic", 0, 16);
+    assert_true(before != fingerprint(mesh));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(modifiers_of_instances_replace_those_within),
+        cmocka_unit_test(lights_in_copies_are_only_seen),
+        cmocka_unit_test(meshes_need_materials),
+        cmocka_unit_test(normals_of_meshes_turn_with_them),
+        cmocka_unit_test(fingerprints_know_all_files),
+    };
+    return cmocka_run_group_tests(tests, enter_directory, leave_directory);
+}
