@@ -36,10 +36,10 @@ typedef struct graze_scene_settings {
 } graze_scene_settings;
 
 /* Reads `count` descriptions as one, in order: each a .rad file, an octree, `!command`, or `-` for standard input;
- * graze-scene(5) says what they may hold. Null stands for settings of 0. A model that there is not, or one chosen for a name that
- * no material has, or one of another kind, is an error. Returns GRAZE_OK and the scene in *scene, to be freed with
- * graze_scene_destroy; or GRAZE_INPUT_ERROR or GRAZE_SYSTEM_ERROR, with every mistake reported with its file, line and
- * column, and *scene null.
+ * graze-scene(5) says what they may hold. Null stands for settings of 0. A model that there is not, or one chosen for a
+ * name that no material has, or one of another kind, is an error. Returns GRAZE_OK and the scene in *scene, to be freed
+ * with graze_scene_destroy; or GRAZE_INPUT_ERROR or GRAZE_SYSTEM_ERROR, with every mistake reported with its file, line
+ * and column, and *scene null.
  */
 GRAZE_API graze_status graze_scene_load(graze_scene **scene, const char *const *descriptions, size_t count,
                                         const graze_scene_settings *settings, const graze_report *report);
