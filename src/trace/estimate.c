@@ -339,9 +339,9 @@ static bool is_enough(const graze_trace_settings *s, const half *judge, const fi
     return rgb_max(variance) / HALVES <= allowed * allowed;
 }
 
-/* Where only the place in the pixel decides what is seen, halves begin with so few samples that one may see an edge that
- * the other does not; this much more than the error asked for then is too much. Going on does make such pixels a little
- * too dark at bright edges, but the same edge would else be bright in some pixels and missing in others. */
+/* Where only the place in the pixel decides what is seen, halves begin with so few samples that one may see an edge
+ * that the other does not; this much more than the error asked for then is too much. Going on does make such pixels a
+ * little too dark at bright edges, but the same edge would else be bright in some pixels and missing in others. */
 #define STATED_OF_PLACES 1.5
 
 static bool is_torn(const graze_trace_settings *s, const half halves[HALVES], const graze_answer *answer) {
