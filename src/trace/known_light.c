@@ -72,9 +72,14 @@ static void begin_controls(path *p, int count) {
         p->controls[p->control_count] = (path_control){{0, 0, 0}, 0, 0};
 }
 
-/* Of skies nobody can tell that nothing hides a part of them: that says nothing. */
-static bool is_small(const scene_light *light) {
-    return light->shape || light->half_angle < PI / 2;
+/* Of other lights nobody can tell that nothing hides a part of them (geometry/shaft.h): that it is not told says
+ * nothing then. */
+static bool can_be_told(const scene_light *light) {
+    const shape *s = light->shape;
+    if (!s)
+        return light->half_angle < PI / 2;
+    return s->kind == SHAPE_RING || (s->kind == SHAPE_SPHERE && !s->inward) ||
+           (s->kind == SHAPE_POLYGON && s->polygon.vertex_count <= 16);
 }
 
 /* Nothing is known of the light but that something may stand before a part of it. */
@@ -97,7 +102,7 @@ void known_light_add(path *p, const vertex *v, const light_choice *lights) {
         if (found.seen == GEOMETRY_BLOCKED)
             p->known.settled |= 1u << i;
         if (!found.integrated || !has_one_role(light)) {
-            if (found.seen == GEOMETRY_MIXED && !p->known.shared && is_small(light))
+            if (found.seen == GEOMETRY_MIXED && !p->known.shared && can_be_told(light))
                 watch(p, i);
             continue;
         }
