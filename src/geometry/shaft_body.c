@@ -202,10 +202,20 @@ static bool ball_holds(const shaft *s, const shape *ball, int surface, double di
     return true;
 }
 
+/* Of the angle between the middles of ball and light, for its plane to be known to half of a double's digits and more.
+ */
+#define LEAST_SINE 1e-6
+
 /* The plane through the point that touches the ball where it is nearest to the light. */
 static bool tangent_separates(const shaft *s, vec3 unit, double sine) {
     vec3 light = s->round ? s->center : vec3_scale(0.5, vec3_add(s->corners[0], s->corners[s->corner_count / 2]));
-    vec3 across = vec3_normalize(vec3_add_scaled(light, -vec3_dot(light, unit), unit));
+    vec3 off_axis = vec3_add_scaled(light, -vec3_dot(light, unit), unit);
+    /* Within the ball's own cone the light's middle is beside no such plane; close to its axis the direction away from
+     * that would be one of roundings. */
+    double away = vec3_length(off_axis);
+    if (!(away > double_max(sine, LEAST_SINE) * vec3_length(light)))
+        return false;
+    vec3 across = vec3_scale(1 / away, off_axis);
     vec3 normal = vec3_add_scaled(vec3_scale(sqrt((1 - sine) * (1 + sine)), across), -sine, unit);
     return shaft_light_span(s, normal).low >= -s->tolerance;
 }

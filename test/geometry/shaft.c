@@ -402,6 +402,36 @@ static void a_lamp_and_a_ball(void **state) {
     }
 }
 
+/* Lamps and balls on one line with the point, up to roundings: a lamp in its globe, and one behind a ball. */
+static void lamps_and_balls_in_line(void **state) {
+    (void)state;
+    dice d = {11};
+    score sum = {0};
+    for (int i = 0; i < 300; i++) {
+        world w = {.scale = roll_size(&d, 1e-3, 1e3)};
+        vec3 way = vec3_make(roll_between(&d, -1, 1), roll_between(&d, -1, 1), roll_between(&d, 0.2, 1));
+        vec3 lamp = vec3_scale(w.scale, way), normal = vec3_normalize(way), ball = lamp;
+        double distance = vec3_length(lamp), size = 0.05 * distance;
+        if (i % 2)
+            ball = vec3_scale(roll_between(&d, 0.3, 0.8), lamp);
+        if (i % 3 == 0)
+            add_lamp(&w, make_sphere(lamp, size));
+        else if (i % 3 == 1)
+            add_lamp(&w, make_ring(lamp, vec3_negate(normal), 0, size));
+        else
+            add_lamp(&w, quadrangle(&w, (double[4][3]){{way.x, way.y, way.z},
+                                                       {way.x, way.y + .05, way.z},
+                                                       {way.x + .05, way.y + .05, way.z},
+                                                       {way.x + .05, way.y, way.z}}));
+        add(&w, make_sphere(ball, size * roll_between(&d, 1.2, 4)));
+        build(&w);
+        geometry_sight sight = {.point = w.corner, .normal = normal, .from = -1, .light = w.lights[0]};
+        check_sight(&w, &d, &sight, &sum);
+        geometry_destroy(w.geometry);
+    }
+    assert_true(sum.hidden > 200);
+}
+
 /* A star that is drawn in one stroke is open in its middle. */
 static void a_star(void **state) {
     (void)state;
@@ -433,9 +463,15 @@ static void unprepared(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(empty_rooms),   cmocka_unit_test(furnished_rooms),    cmocka_unit_test(meshes),
-        cmocka_unit_test(nothing_above), cmocka_unit_test(a_plane_and_a_lamp), cmocka_unit_test(a_lamp_and_a_ball),
-        cmocka_unit_test(a_star),        cmocka_unit_test(unprepared),
+        cmocka_unit_test(empty_rooms),
+        cmocka_unit_test(furnished_rooms),
+        cmocka_unit_test(meshes),
+        cmocka_unit_test(nothing_above),
+        cmocka_unit_test(a_plane_and_a_lamp),
+        cmocka_unit_test(a_lamp_and_a_ball),
+        cmocka_unit_test(lamps_and_balls_in_line),
+        cmocka_unit_test(a_star),
+        cmocka_unit_test(unprepared),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
