@@ -83,13 +83,18 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     return sample;
 }
 
+/* Random numbers of pictures, and of surveys. */
+enum { PICTURE_NUMBERS, SURVEY_NUMBERS };
+
 /* `parts` may be null. */
-static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings, estimate_parts *parts) {
-    uint64_t number = (uint64_t)p->row * (uint64_t)p->picture->settings.width + (uint64_t)p->column;
+static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *settings, int numbers, uint32_t least,
+                                   estimate_parts *parts) {
+    uint64_t width = (uint64_t)p->picture->settings.width, height = (uint64_t)p->picture->settings.height;
+    uint64_t number = ((uint64_t)numbers * height + (uint64_t)p->row) * width + (uint64_t)p->column;
     graze_answer answer;
     path_memory known = {.alike = !is_spread(&p->picture->settings)};
     pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .memory = &known};
-    estimate_with_parts(settings, number, sample_pixel, &remembering, &answer, parts);
+    estimate_with_parts(settings, number, least, sample_pixel, &remembering, &answer, parts);
     return answer;
 }
 
@@ -123,8 +128,9 @@ static void render_pixel(rendering *p, int column, int row) {
         return;
     estimate_parts parts = {{0, 0, 0}, {0, 0, 0}};
     bool layers = p->settings.content == PICTURE_LAYERS;
-    film_pixel result = {.answer = estimate_pixel(&(pixel){.picture = p, .column = column, .row = row}, &p->trace,
-                                                  layers ? &parts : NULL)};
+    const pixel here = {.picture = p, .column = column, .row = row};
+    uint32_t least = survey_least(&p->survey, column, row);
+    film_pixel result = {.answer = estimate_pixel(&here, &p->trace, PICTURE_NUMBERS, least, layers ? &parts : NULL)};
     result.albedo = parts.albedo;
     result.indirect = parts.indirect;
     result.reached = relative_error(&result.answer, p->trace.floor);
@@ -177,7 +183,7 @@ static void sample_pilot(void *user, size_t index, int worker) {
     if (is_stopped(p->picture))
         return;
     pixel at = pilot_pixel(p, index);
-    p->values[index] = estimate_pixel(&at, &p->trace, NULL).value;
+    p->values[index] = estimate_pixel(&at, &p->trace, PICTURE_NUMBERS, 0, NULL).value;
 }
 
 static graze_status estimate_mean(const rendering *whole, double *mean, const graze_report *report) {
@@ -218,6 +224,14 @@ static graze_status build_cache(rendering *whole, const graze_report *report) {
                                   s->threads, report);
 }
 
+static graze_answer survey_pixel(void *user, const graze_trace_settings *settings, int column, int row) {
+    const rendering *whole = user;
+    const pixel at = {.picture = whole, .column = column, .row = row};
+    if (is_stopped(whole))
+        return (graze_answer){.samples = 0};
+    return estimate_pixel(&at, settings, SURVEY_NUMBERS, 0, NULL);
+}
+
 graze_status picture_begin(rendering **out, const graze_scene *scene, const graze_trace_settings *trace,
                            const picture_settings *settings, const graze_report *report) {
     rendering *p = *out = calloc(1, sizeof *p);
@@ -246,6 +260,7 @@ void picture_destroy(rendering *p) {
     if (!p)
         return;
     irradiance_cache_destroy(p->cache);
+    survey_free(&p->survey);
     film_free(&p->film);
     free(p);
 }
@@ -263,6 +278,17 @@ graze_status picture_render(rendering *p, const graze_report *report) {
         graze_status status = build_cache(p, report);
         if (status != GRAZE_OK || is_stopped(p))
             return status;
+    }
+    if (!p->trace.samples && !p->survey.least) {
+        const picture_settings *s = &p->settings;
+        graze_status status =
+            survey_make(&p->survey, s->width, s->height, &p->trace, s->threads, survey_pixel, p, report);
+        if (status != GRAZE_OK)
+            return status;
+        if (is_stopped(p)) {
+            survey_free(&p->survey);
+            return GRAZE_OK;
+        }
     }
     parallel_for(p->settings.threads, order_count(&p->order), render_piece, p);
     return GRAZE_OK;

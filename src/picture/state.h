@@ -4,6 +4,7 @@
 
 #include "picture/film.h"
 #include "picture/order.h"
+#include "picture/survey.h"
 #include "trace/irradiance_cache.h"
 
 struct rendering {
@@ -13,6 +14,7 @@ struct rendering {
     const graze_scene *scene;
     film film;
     irradiance_cache *cache; /* null: none */
+    picture_survey survey;
     order order;
     atomic_bool stopped;
     atomic_size_t finished, unconverged;

@@ -330,9 +330,10 @@ static double samples_to_believe(const graze_trace_settings *s, estimate_luck lu
 }
 
 /* Whether so many samples in either half are enough, as one of them finds. */
-static bool is_enough(const graze_trace_settings *s, const half *judge, const finding *found, uint32_t taken) {
+static bool is_enough(const graze_trace_settings *s, uint32_t least, const half *judge, const finding *found,
+                      uint32_t taken) {
     double value = rgb_max(found->mean);
-    if (taken < samples_to_believe(s, judge->luck, value) / HALVES)
+    if (taken < fmax(samples_to_believe(s, judge->luck, value), least) / HALVES)
         return false;
     double allowed = s->error * fmax(value, s->floor);
     rgb variance = variance_by(&found->evidence, variance_of_mean(taken));
@@ -353,8 +354,8 @@ static bool is_torn(const graze_trace_settings *s, const half halves[HALVES], co
 /* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. What both together
  * then state may be more than the error asked for; going on because of that would have samples judge themselves: those
  * that found much and scatter would be added to, those that found little and scatter less would be believed. */
-static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
-                   graze_answer *answer) {
+static bool refine(half halves[HALVES], const graze_trace_settings *s, uint32_t least, estimate_sample *sample,
+                   void *user, graze_answer *answer) {
     uint32_t limit = s->sample_limit / HALVES;
     bool enough[HALVES] = {false, false};
     for (uint64_t goal = FIRST_LOOK;; goal *= 2) {
@@ -364,7 +365,7 @@ static bool refine(half halves[HALVES], const graze_trace_settings *s, estimate_
                 take_until(&halves[i], last ? limit : (uint32_t)goal, sample, user);
         const finding found[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
         for (int i = 0; i < HALVES; i++)
-            enough[i] = enough[i] || is_enough(s, &halves[1 - i], &found[1 - i], halves[i].taken);
+            enough[i] = enough[i] || is_enough(s, least, &halves[1 - i], &found[1 - i], halves[i].taken);
         bool reached = enough[0] && enough[1];
         if (!reached && !last)
             continue;
@@ -386,8 +387,8 @@ static void begin(half *h, uint64_t key, bool with_parts) {
     h->parts = (estimate_parts){{0, 0, 0}, {0, 0, 0}};
 }
 
-static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, estimate_sample *sample, void *user,
-                            graze_answer *answer) {
+static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, uint32_t least,
+                            estimate_sample *sample, void *user, graze_answer *answer) {
     bool exact = take_one(&halves[0], sample, user) == ESTIMATE_EXACT;
     if (exact || s->samples == 1) {
         answer->value = not_negative(halves[0].sum[0]);
@@ -402,7 +403,7 @@ static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, 
         const finding found[HALVES] = {finding_of(&halves[0], &halves[1]), finding_of(&halves[1], &halves[0])};
         summarize(halves, found, answer);
     } else {
-        answer->converged = refine(halves, s, sample, user, answer);
+        answer->converged = refine(halves, s, least, sample, user, answer);
     }
 }
 
@@ -419,18 +420,18 @@ static estimate_parts mean_parts(const half halves[HALVES]) {
     return mean;
 }
 
-void estimate_with_parts(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
-                         graze_answer *answer, estimate_parts *parts) {
+void estimate_with_parts(const graze_trace_settings *s, uint64_t stream, uint32_t least, estimate_sample *sample,
+                         void *user, graze_answer *answer, estimate_parts *parts) {
     half halves[HALVES];
     for (int i = 0; i < HALVES; i++)
         begin(&halves[i], sampler_key(s->seed, stream, (uint32_t)i), parts != NULL);
     *answer = (graze_answer){.converged = 1};
-    estimate_halves(halves, s, sample, user, answer);
+    estimate_halves(halves, s, least, sample, user, answer);
     if (parts)
         *parts = mean_parts(halves);
 }
 
 void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
               graze_answer *answer) {
-    estimate_with_parts(s, stream, sample, user, answer, NULL);
+    estimate_with_parts(s, stream, 0, sample, user, answer, NULL);
 }

@@ -35,8 +35,9 @@ typedef struct estimate_parts {
     rgb indirect, albedo;
 } estimate_parts;
 
-/* As estimate, with the parts, too. */
-void estimate_with_parts(const graze_trace_settings *, uint64_t stream, estimate_sample *, void *user, graze_answer *,
-                         estimate_parts *);
+/* As estimate, with the parts, too (which may be null). No error is believed before `least` samples are taken: so many
+ * as others, such as neighbours in a picture, tell will be needed. */
+void estimate_with_parts(const graze_trace_settings *, uint64_t stream, uint32_t least, estimate_sample *, void *user,
+                         graze_answer *, estimate_parts *);
 
 #endif

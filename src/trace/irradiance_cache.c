@@ -28,6 +28,10 @@ enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 
 #define NOISE_OF_ERROR 5.0
 #define FEWEST_PATHS   16
 #define MOST_PATHS     1024
+/* A cell that more pilot paths have come to than this is seen by more of the picture, whose mean has its noise: that is
+ * the less, as the root of their number is the more. Such a cell may have so many paths for each of them. */
+#define OFTEN_SEEN     16.0
+#define PATHS_OF_PILOT 4
 /* Where they have found less than the floor there may be more than they have found: the less, the more of them. */
 #define PATHS_BELIEVED 128
 
@@ -231,11 +235,12 @@ static void take_until(const filling *f, const cell *c, path_memory *memory, hal
 }
 
 /* Whether so many paths of a half are enough, as the other finds. */
-static bool is_enough(const filling *f, const half_cell *judge, size_t taken) {
+static bool is_enough(const filling *f, const cell *c, const half_cell *judge, size_t taken) {
     const graze_trace_settings *s = f->context.settings;
     double count = (double)judge->taken, mean = judge->brightness / count, floor = PI * s->floor;
     double variance = fmax(judge->squares - mean * judge->brightness, 0) / (count - 1);
-    double allowed = NOISE_OF_ERROR * s->error * fmax(mean, floor), all = (double)taken * HALVES;
+    double seen = fmin(sqrt(OFTEN_SEEN / (double)c->count), 1), all = (double)taken * HALVES;
+    double allowed = NOISE_OF_ERROR * s->error * seen * fmax(mean, floor);
     if (all < PATHS_BELIEVED && all * mean < FEWEST_PATHS * floor)
         return false;
     return variance <= allowed * allowed * all;
@@ -253,12 +258,13 @@ static void fill_cell(void *user, size_t index, int worker) {
     for (int i = 0; i < HALVES; i++)
         halves[i].key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number * HALVES + (uint32_t)i);
     bool enough[HALVES] = {false, false};
-    for (size_t goal = FEWEST_PATHS / HALVES; goal <= MOST_PATHS / HALVES && !(enough[0] && enough[1]); goal *= 2) {
+    size_t most = PATHS_OF_PILOT * c->count > MOST_PATHS ? PATHS_OF_PILOT * c->count : MOST_PATHS;
+    for (size_t goal = FEWEST_PATHS / HALVES; goal <= most / HALVES && !(enough[0] && enough[1]); goal *= 2) {
         for (int i = 0; i < HALVES; i++)
             if (!enough[i])
                 take_until(f, c, &memory, halves, i, goal);
         for (int i = 0; i < HALVES; i++)
-            enough[i] = enough[i] || is_enough(f, &halves[1 - i], halves[i].taken);
+            enough[i] = enough[i] || is_enough(f, c, &halves[1 - i], halves[i].taken);
     }
     for (int k = 0; k < CELL_PARTS; k++) {
         const half_cell *h = &halves[k / HALF_PARTS];
