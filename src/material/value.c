@@ -9,10 +9,21 @@ rgb material_diffuse_reflectance(const graze_surface *s, double cosine) {
     return s->fresnel ? rgb_scale(1 - material_fresnel(cosine), s->diffuse) : s->diffuse;
 }
 
+/* What comes through from below. */
+static void transmitted_value(const graze_surface *s, vec3 l, rgb *diffuse, rgb *glossy) {
+    double through = s->fresnel ? 1 - material_fresnel(-l.z) : 1;
+    *diffuse = rgb_scale(through * INV_PI, s->transmitted_diffuse);
+    if (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY)
+        *glossy = material_saturate(rgb_scale(material_transmitted_value(s, l), s->transmitted_specular));
+}
+
 void material_local_value(const graze_surface *s, vec3 l, rgb *diffuse, rgb *glossy) {
     *diffuse = *glossy = (rgb){0, 0, 0};
-    if (!(l.z > 0))
+    if (!(l.z > 0)) {
+        if (l.z < 0 && s->transmits)
+            transmitted_value(s, l, diffuse, glossy);
         return;
+    }
     *diffuse = rgb_scale(INV_PI, material_diffuse_reflectance(s, l.z));
     if (s->specular_lobe == GRAZE_LOBE_GLOSSY)
         *glossy = material_saturate(rgb_scale(graze_brdf_value(&s->lobe, l, s->local_view), s->specular));

@@ -54,6 +54,18 @@ static bool is_mirror(const scene_material *material) {
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
 }
 
+bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
+    if (material->mixture)
+        return scene_material_is_pane(scene, &scene->materials[material->fore]) ||
+               scene_material_is_pane(scene, &scene->materials[material->back]);
+    return !material->emits && !material->reflection && !material->wgmd &&
+           !rgb_is_black(graze_material_straight_through(&material->reflector, 1));
+}
+
+static bool refracts(const scene_material *material) {
+    return !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
+}
+
 static int material_of(scene_builder *, int modifier);
 
 static graze_status need_modifiers(scene_builder *b) {
@@ -89,8 +101,11 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
     material->back = material_of(b, mixture->back);
     if (material->fore < 0 || material->back < 0)
         return b->status;
-    if (b->scene->materials[material->fore].emits || b->scene->materials[material->back].emits)
+    const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
+    if (fore->emits || back->emits)
         return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
+    if (refracts(fore) || refracts(back))
+        return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
     return GRAZE_OK;
 }
 
@@ -141,7 +156,9 @@ static int add_material(scene_builder *b, int modifier) {
     }
     made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection && !made.wgmd;
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || refracts(&made);
+    scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
+    scene->has_refraction = scene->has_refraction || refracts(&made);
     return (int)scene->material_count++;
 }
 
@@ -201,6 +218,7 @@ static void add_shape(scene_builder *b, int primitive) {
     scene->surface_count++;
     check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
     scene->shapes[index].shines = scene->materials[material].emits;
+    scene->shapes[index].passes = scene_material_is_pane(scene, &scene->materials[material]);
     if (!scene->materials[material].emits)
         return;
     if (!shape_prepare_light(&scene->shapes[index], scene->memory))

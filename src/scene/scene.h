@@ -102,8 +102,10 @@ struct graze_scene {
     scene_material *materials;
     size_t material_count;
     material_modifiers *modifiers; /* null where no material has any */
-    bool has_mirrors;
-    scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
+    bool has_mirrors;              /* or dielectrics: light comes by ways that no light sample finds */
+    bool has_panes;                /* surfaces that light goes straight through */
+    bool has_refraction;           /* dielectrics */
+    scene_light *lights;           /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
