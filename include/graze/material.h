@@ -32,6 +32,14 @@
  * four times the other, more than everything would get through towards the horizon. The integral of g |l.n| over all l
  * is at most 1. It is reciprocal for a_u = a_v, and nearly so otherwise.
  *
+ * An ashik2 with the colours C and S reflects C (1 - F(l.n)) / pi diffusely, F(c) = (1 - c)^5, and
+ * S + (1 - S) F(v.n) by the lobe of Ashikhmin and Shirley, for the half vector h at the angle delta to n and phi to u,
+ *
+ *   sqrt((p_u + 1) (p_v + 1)) cos(delta)^(p_u cos^2(phi) + p_v sin^2(phi)) / (8 pi (l.h) max(l.n, v.n))
+ *
+ * Of C no more counts than what the specular part leaves of 1. (Radiance has no such bound, and at the horizon sends
+ * out more than arrives.) A mirror reflects C.
+ *
  * A glass is a thin pane: of a light's two polarisations, each reflected by the share R at a face (Fresnel's formulas
  * for the index n), it transmits straight on the mean of (1 - R)^2 T / (1 - R^2 T^2), and reflects the mean of R + (1 -
  * R)^2 R T^2 / (1 - R^2 T^2), where T = C^(1/c) is what its body, of the transmissivity C, lets pass at the cosine c
@@ -63,13 +71,16 @@ extern "C" {
 typedef enum graze_material_kind {
     GRAZE_PLASTIC,    /* diffuse colour (1 - specularity) x colour, specular colour white */
     GRAZE_METAL,      /* both in the material's colour */
+    GRAZE_ASHIKHMIN,  /* the model of Ashikhmin and Shirley, with a colour for each part */
     GRAZE_TRANS,      /* a plastic that lets some of the light through */
     GRAZE_GLASS,      /* a thin pane */
     GRAZE_DIELECTRIC, /* the boundary of a solid, or between two */
+    GRAZE_MIRROR,     /* reflects in one direction from its front, and is black behind */
 } graze_material_kind;
 
 /* A material's parameters as in a scene file: `plastic`, `metal`, `trans` (isotropic), `plastic2`, `metal2`, `trans2`
- * (anisotropic), `glass`, `dielectric`, `interface`. Those that a kind does not name are not looked at. */
+ * (anisotropic), `ashik2`, `glass`, `dielectric`, `interface`, `mirror`. Those that a kind does not name are not looked
+ * at. */
 typedef struct graze_material {
     graze_material_kind kind;
     graze_brdf_model model; /* of the specular lobe; GRAZE_BRDF_GMD is what Radiance means */
@@ -81,6 +92,8 @@ typedef struct graze_material {
     graze_vec3 orientation; /* the u vector, in world space, of any length and at any angle to the surface */
     double transmission;    /* trans: 0 .. 1 */
     double transmitted_specularity; /* trans: 0 .. 1 */
+    graze_rgb specular_color;       /* ashik2: of the specular part; `color` is that of the diffuse one */
+    double power_u, power_v;        /* ashik2: exponents, 0 .. 1e6 */
     double refraction; /* glass: index, at least 1; dielectric: that of the inside over that of the outside, above 0 */
     graze_rgb inside, outside; /* dielectric: transmissivity of a unit of length, 0 .. 1, behind and before the surface;
                                   of the outside, 1 but for an interface */
@@ -101,13 +114,15 @@ typedef enum graze_lobe {
 typedef struct graze_surface {
     graze_rgb diffuse;  /* reflectance of the diffuse part, as seen from `view` */
     graze_rgb specular; /* reflectance colour of the specular part; Fresnel's estimate included for mirrors */
-    int fresnel;        /* a mirror with Fresnel's estimate: light at cosine c reaches the diffuse part by 1 - F(c) */
+    int fresnel;        /* not 0: light at cosine c reaches the diffuse part by 1 - F(c): 1 for Radiance's estimate,
+                           2 for that of ashik2 */
     graze_lobe specular_lobe; /* GLOSSY, MIRROR, or NONE where `specular` is black */
-    graze_brdf lobe;          /* for GLOSSY */
-    graze_vec3 x, y, n;       /* shading frame: x along u, right-handed, orthonormal */
-    graze_vec3 view;          /* towards the viewer */
-    graze_vec3 local_view;    /* the same in the frame */
-    int transmits;            /* some light comes from the other side; else the following are not set: */
+    graze_brdf lobe;          /* for GLOSSY; of ashik2 its model is GRAZE_BRDF_MODEL_COUNT, none, and: */
+    double power_u, power_v;
+    graze_vec3 x, y, n;    /* shading frame: x along u, right-handed, orthonormal */
+    graze_vec3 view;       /* towards the viewer */
+    graze_vec3 local_view; /* the same in the frame */
+    int transmits;         /* some light comes from the other side; else the following are not set: */
     graze_rgb transmitted_diffuse;
     graze_rgb transmitted_specular;
     graze_lobe transmitted_lobe; /* TRANSMITTED_GLOSSY, TRANSMITTED, or NONE where transmitted_specular is black */
@@ -116,8 +131,8 @@ typedef struct graze_surface {
 } graze_surface;
 
 /* Prepares a surface. `normal` is the shading normal on the viewer's side (dot(normal, view) >= 0), but of a dielectric
- * it is that of the outside, wherever the viewer is; it and `view` must be unit vectors to a double's precision. The
- * surface's frame always stands on the viewer's side.
+ * or a mirror it is that of the outside or the front, wherever the viewer is; it and `view` must be unit vectors to a
+ * double's precision. The surface's frame always stands on the viewer's side.
  *
  * The frame: y = normalize(normal x orientation), x = y x normal. Where the orientation is null or parallel to the
  * normal (within 1e-12 rad) the lobe becomes isotropic with the roughness sqrt((u^2 + v^2)/2), as in Radiance;

@@ -201,6 +201,54 @@ static graze_status read_interface(graze_material *m, const rad_primitive *p, co
     return GRAZE_OK;
 }
 
+/* The largest exponent; beyond it single precision could not place a highlight. */
+#define LARGEST_POWER 1e6
+
+/* Exponents as roughnesses of about the same lobes. */
+static double roughness_of(double power) {
+    return sqrt(2 / (power + 2));
+}
+
+static graze_status read_ashik2(graze_material *m, const rad_primitive *p, const graze_report *report) {
+    graze_status status = check_count(p, 8, report);
+    if (status == GRAZE_OK)
+        status = check_signs(p, report);
+    if (status != GRAZE_OK)
+        return status;
+    const double *a = p->reals;
+    if (p->string_count < ORIENTATION_STRINGS)
+        return rad_primitive_error(report, p, "needs at least %d string arguments, not %u", ORIENTATION_STRINGS,
+                                   (unsigned)p->string_count);
+    if (a[6] > LARGEST_POWER || a[7] > LARGEST_POWER)
+        return rad_primitive_error(report, p, "the powers must be in 0 .. 1000000");
+    if (a[0] + a[3] > 1 || a[1] + a[4] > 1 || a[2] + a[5] > 1)
+        rad_primitive_warning(report, p, "unphysical: its colours add up to more than 1");
+    *m = (graze_material){.kind = GRAZE_ASHIKHMIN,
+                          .model = GRAZE_BRDF_GMD,
+                          .color = {a[0], a[1], a[2]},
+                          .specular_color = {a[3], a[4], a[5]},
+                          .power_u = a[6],
+                          .power_v = a[7],
+                          .roughness_u = roughness_of(a[6]),
+                          .roughness_v = roughness_of(a[7])};
+    m->specularity = rgb_brightness(m->specular_color);
+    return read_orientation(m, p, report);
+}
+
+static graze_status read_mirror(graze_material *m, const rad_primitive *p, const graze_report *report) {
+    graze_status status = check_count(p, 3, report);
+    if (status == GRAZE_OK)
+        status = check_signs(p, report);
+    if (status != GRAZE_OK)
+        return status;
+    if (p->string_count > 0)
+        return rad_primitive_error(report, p, "an alternate material of a mirror is not supported yet");
+    if (rgb_max((rgb){p->reals[0], p->reals[1], p->reals[2]}) > 1)
+        rad_primitive_warning(report, p, "unphysical: a colour above 1 reflects more light than it receives");
+    *m = (graze_material){.kind = GRAZE_MIRROR, .color = {p->reals[0], p->reals[1], p->reals[2]}};
+    return GRAZE_OK;
+}
+
 bool material_is_reflector(rad_type type) {
     return type == RAD_PLASTIC || type == RAD_METAL || type == RAD_TRANS || type == RAD_PLASTIC2 ||
            type == RAD_METAL2 || type == RAD_TRANS2;
@@ -220,6 +268,10 @@ graze_status material_from_primitive(graze_material *m, const rad_primitive *p, 
         return read_isotropic(m, p, GRAZE_TRANS, report);
     case RAD_TRANS2:
         return read_anisotropic(m, p, GRAZE_TRANS, report);
+    case RAD_ASHIK2:
+        return read_ashik2(m, p, report);
+    case RAD_MIRROR:
+        return read_mirror(m, p, report);
     case RAD_GLASS:
         return read_glass(m, p, report);
     case RAD_DIELECTRIC:

@@ -31,6 +31,8 @@ static graze_surface_sample sample_transmitted(const graze_surface *s) {
 static graze_surface_sample sample_glossy(const graze_surface *s, double u, double v, double w) {
     if (!(s->local_view.z > 0))
         return reject(s);
+    if (material_is_ashikhmin(s))
+        return material_ashikhmin_sample(s, u, v);
     graze_brdf_sample sample = graze_brdf_sample_pair(&s->lobe, s->local_view, u, v, w);
     frame f = material_frame(s);
     return (graze_surface_sample){frame_to_world(&f, sample.l), rgb_scale(sample.weight, s->specular), sample.density};
@@ -60,6 +62,8 @@ graze_surface_sample graze_surface_sample_lobe(const graze_surface *surface, gra
 graze_surface_sample graze_surface_sample_unweighted(const graze_surface *surface, double s, double t) {
     if (surface->specular_lobe != GRAZE_LOBE_GLOSSY || !(surface->local_view.z > 0))
         return reject(surface);
+    if (material_is_ashikhmin(surface))
+        return material_ashikhmin_sample(surface, s, t);
     graze_brdf_sample sample = graze_brdf_sample_ward(&surface->lobe, surface->local_view, s, t);
     if (!(sample.density > 0))
         return reject(surface);
@@ -83,6 +87,7 @@ double graze_surface_density(const graze_surface *s, graze_lobe lobe, graze_vec3
     if (lobe == GRAZE_LOBE_DIFFUSE)
         return graze_diffuse_density(local, (vec3){0, 0, 1});
     if (lobe == GRAZE_LOBE_GLOSSY && s->specular_lobe == GRAZE_LOBE_GLOSSY)
-        return graze_brdf_pair_density(&s->lobe, local, s->local_view);
+        return material_is_ashikhmin(s) ? material_ashikhmin_density(s, local)
+                                        : graze_brdf_pair_density(&s->lobe, local, s->local_view);
     return 0;
 }

@@ -28,6 +28,15 @@ double material_transmitted_density(const graze_surface *, vec3 l);
 graze_surface_sample material_transmitted_sample(const graze_surface *, double random_radius, double random_angle,
                                                  double choice);
 
+/* The same of the lobe of ashik2. */
+double material_ashikhmin_value(const graze_surface *, vec3 l);
+double material_ashikhmin_density(const graze_surface *, vec3 l);
+graze_surface_sample material_ashikhmin_sample(const graze_surface *, double random_turn, double random_tilt);
+
+static inline bool material_is_ashikhmin(const graze_surface *s) {
+    return s->lobe.model == GRAZE_BRDF_MODEL_COUNT;
+}
+
 /* graze_surface_value for a direction in the shading frame. */
 void material_local_value(const graze_surface *, vec3 l, rgb *diffuse, rgb *glossy);
 

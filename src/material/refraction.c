@@ -1,4 +1,4 @@
-/* Clear bodies: thin panes of glass, and the boundaries of dielectrics. */
+/* What is polished: thin panes of glass, the boundaries of dielectrics, and mirrors. */
 #include "material/refraction.h"
 
 #include "material/lobes.h"
@@ -101,6 +101,12 @@ void material_prepare_dielectric(graze_surface *s, const graze_material *m, int 
         s->transmitted_specular = rgb_gray((1 - reflected) * square(ratio));
         s->transmitted = vec3_normalize(vec3_add_scaled(vec3_scale(-ratio, s->view), ratio * cosine - behind, s->n));
     }
+    set_specular_lobes(s);
+}
+
+void material_prepare_mirror(graze_surface *s, const graze_material *m, int behind) {
+    s->specular = behind ? (rgb){0, 0, 0} : m->color;
+    s->transmitted_specular = (rgb){0, 0, 0};
     set_specular_lobes(s);
 }
 

@@ -9,6 +9,8 @@
 void material_prepare_glass(graze_surface *, const graze_material *);
 void material_prepare_dielectric(graze_surface *, const graze_material *, int inside);
 
+void material_prepare_mirror(graze_surface *, const graze_material *, int behind);
+
 /* What a pane lets straight through at this cosine. */
 rgb material_glass_transmittance(const graze_material *, double cosine);
 

@@ -80,7 +80,34 @@ static void prepare_transmission(graze_surface *s, const graze_material *m, bool
                                                                 : GRAZE_LOBE_TRANSMITTED_GLOSSY;
 }
 
+static double at_most(double value, double bound) {
+    return double_max(double_min(value, bound), 0);
+}
+
+/* Without an orientation both powers are their harmonic mean, as in Radiance. */
+static void prepare_ashikhmin(graze_surface *s, const graze_material *m, double view_cosine) {
+    double fresnel = material_schlick(double_max(view_cosine, SMALLEST_VIEW_COSINE));
+    bool oriented = s->lobe.alpha_x != s->lobe.alpha_y || m->power_u == m->power_v;
+    double mean = 2 / (1 / (m->power_u + 1e-5) + 1 / (m->power_v + 1e-5));
+    s->power_u = oriented ? m->power_u : mean;
+    s->power_v = oriented ? m->power_v : mean;
+    s->lobe.model = GRAZE_BRDF_MODEL_COUNT;
+    s->fresnel = 2;
+    bool none = rgb_is_black(m->specular_color);
+    s->specular = rgb_gray(0);
+    if (!none)
+        s->specular = rgb_add_scaled(m->specular_color, fresnel, rgb_add_scaled(rgb_gray(1), -1, m->specular_color));
+    s->diffuse = (rgb){at_most(m->color.r, 1 - s->specular.r), at_most(m->color.g, 1 - s->specular.g),
+                       at_most(m->color.b, 1 - s->specular.b)};
+    s->specular_lobe = none ? GRAZE_LOBE_NONE : GRAZE_LOBE_GLOSSY;
+    s->transmits = 0;
+}
+
 static void prepare_colours(graze_surface *s, const graze_material *m, bool mirror, double view_cosine) {
+    if (m->kind == GRAZE_ASHIKHMIN) {
+        prepare_ashikhmin(s, m, view_cosine);
+        return;
+    }
     double specularity = m->specularity, fresnel = 0;
     s->fresnel = mirror && specularity >= MATERIAL_FRESNEL_THRESHOLD;
     if (s->fresnel)
@@ -111,6 +138,8 @@ static void prepare_clear(graze_surface *s, const graze_material *m, vec3 normal
     s->local_view = frame_to_local(&f, view);
     if (m->kind == GRAZE_GLASS)
         material_prepare_glass(s, m);
+    else if (m->kind == GRAZE_MIRROR)
+        material_prepare_mirror(s, m, inside);
     else
         material_prepare_dielectric(s, m, inside);
 }

@@ -6,7 +6,9 @@
 
 rgb material_diffuse_reflectance(const graze_surface *s, double cosine) {
     /* What the polish reflects of the incoming light does not get to the body below, just as on the way out. */
-    return s->fresnel ? rgb_scale(1 - material_fresnel(cosine), s->diffuse) : s->diffuse;
+    if (!s->fresnel)
+        return s->diffuse;
+    return rgb_scale(1 - (s->fresnel == 1 ? material_fresnel(cosine) : material_schlick(cosine)), s->diffuse);
 }
 
 /* What comes through from below. */
@@ -25,8 +27,11 @@ void material_local_value(const graze_surface *s, vec3 l, rgb *diffuse, rgb *glo
         return;
     }
     *diffuse = rgb_scale(INV_PI, material_diffuse_reflectance(s, l.z));
-    if (s->specular_lobe == GRAZE_LOBE_GLOSSY)
-        *glossy = material_saturate(rgb_scale(graze_brdf_value(&s->lobe, l, s->local_view), s->specular));
+    if (s->specular_lobe != GRAZE_LOBE_GLOSSY)
+        return;
+    double lobe =
+        material_is_ashikhmin(s) ? material_ashikhmin_value(s, l) : graze_brdf_value(&s->lobe, l, s->local_view);
+    *glossy = material_saturate(rgb_scale(lobe, s->specular));
 }
 
 void graze_surface_value(const graze_surface *s, graze_vec3 l, graze_rgb *diffuse, graze_rgb *glossy) {

@@ -198,6 +198,23 @@ static void check_orientation(const scene_builder *b, const rad_primitive *surfa
                               "lies across the orientation vector of its material, which is then isotropic");
 }
 
+/* Flat mirrors, in which lights are sampled. */
+static void note_mirror(scene_builder *b, int index) {
+    graze_scene *scene = b->scene;
+    const scene_material *m = &scene->materials[scene->surfaces[index].material];
+    shape_kind kind = scene->shapes[index].kind;
+    if (m->emits || !m->plain || m->reflector.kind != GRAZE_MIRROR || (kind != SHAPE_POLYGON && kind != SHAPE_RING))
+        return;
+    int *grown = realloc(scene->mirrors, (scene->mirror_count + 1) * sizeof *grown);
+    if (!grown) {
+        scene_fail(b, report_out_of_memory(b->report));
+        return;
+    }
+    scene->mirrors = grown;
+    scene->mirrors[scene->mirror_count++] = index;
+    scene->surfaces[index].mirrors = true;
+}
+
 static void add_shape(scene_builder *b, int primitive) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[primitive];
@@ -218,6 +235,7 @@ static void add_shape(scene_builder *b, int primitive) {
     scene->surface_count++;
     check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
     scene->shapes[index].shines = scene->materials[material].emits;
+    note_mirror(b, (int)index);
     scene->shapes[index].passes = scene_material_is_pane(scene, &scene->materials[material]);
     if (!scene->materials[material].emits)
         return;
@@ -417,6 +435,7 @@ void graze_scene_destroy(graze_scene *scene) {
     }
     free(scene->parts);
     free(scene->lights);
+    free(scene->mirrors);
     free(scene->materials);
     free(scene->surfaces);
     free(scene->shapes);

@@ -192,3 +192,8 @@ void direct_light_add(path *p, const vertex *v, const light_choice *lights, cons
 void direct_light_add_below(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice) {
     add_lights(p, v, lights, choice, true);
 }
+
+rgb direct_light_reflectance(const path *p, const vertex *v, const light_sample *sample, double density,
+                             const lobe_choice *choice) {
+    return reflectance_for_light(p, v, sample, density, choice, false);
+}

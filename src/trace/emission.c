@@ -3,6 +3,7 @@
 
 #include "trace/appearance.h"
 #include "trace/known_light.h"
+#include "trace/mirrored_light.h"
 
 /* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
 static double found_weight(const path *p, const path_hit *hit, light_role role) {
@@ -17,6 +18,8 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
         return 1;
     if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
         return 0;
+    if (last->mirror >= 0)
+        return power_heuristic(last->density, mirrored_light_density(p, hit));
     double other = light_expectation(last->lights, hit->light);
     if (other > 0)
         other *= light_density(p->context->scene, last->lights->receiver.point, hit->light, hit->direction, hit->point,

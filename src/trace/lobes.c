@@ -2,6 +2,7 @@
 #include "trace/lobes.h"
 
 #include "base/angle.h"
+#include "trace/mirrored_light.h"
 #include "trace/vertex.h"
 
 /* Beyond this many reflections every path plays roulette, so that a room of perfect mirrors ends. */
@@ -77,7 +78,8 @@ static inline lobe_choice chances_above(const path *p, const vertex *v) {
     rgb matte = v->function ? rgb_add(v->ambient, v->function_color) : v->ambient;
     choice.diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, path_bounces_left(p), &choice.diffuse_ends);
     if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
-        choice.specular = survival(p, v->shading.specular);
+        choice.specular =
+            rgb_is_black(p->throughput) ? passage_chance(p, v->shading.specular) : survival(p, v->shading.specular);
     else if (v->shading.specular_lobe == GRAZE_LOBE_GLOSSY)
         choice.specular =
             lobe_chance(p, GRAZE_LOBE_GLOSSY, v->shading.specular, !v->gloss_is_ambient, &choice.specular_ends);
@@ -181,24 +183,44 @@ static void go_below(path *p, const vertex *v) {
         p->medium = v->beyond;
 }
 
-/* Lets the path through. What a light sample would have found beyond it may still find, unless it is refracted. */
-static bool pass(path *p, const vertex *v, double chance, vec3 *direction) {
-    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, GRAZE_LOBE_TRANSMITTED, 0, 0, 0);
+/* Lets the path go on in a lobe's one direction as if it had not been stopped. */
+static bool carry_on(path *p, const vertex *v, graze_lobe lobe, double chance, vec3 *direction) {
+    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, 0, 0, 0);
     if (v->leans && vec3_dot(sample.direction, v->normal) >= 0)
         return false;
     rgb weight = rgb_scale(1 / chance, sample.weight);
     p->throughput = rgb_multiply(p->throughput, weight);
     p->last.travelled += v->distance;
     p->last.passed = true;
-    p->last.refracted = p->last.refracted || v->refracts;
-    p->passages++;
-    go_below(p, v);
     *direction = sample.direction;
     if (p->last.lobe == GRAZE_LOBE_NONE)
         return rgb_max(p->throughput) <= LARGEST_THROUGHPUT;
     p->last.direct = rgb_multiply(p->last.direct, weight);
     p->last.indirect = rgb_multiply(p->last.indirect, weight);
     return is_bounded(p);
+}
+
+/* Lets the path through. What a light sample would have found beyond it may still find, unless it is refracted. */
+static bool pass(path *p, const vertex *v, double chance, vec3 *direction) {
+    p->last.refracted = p->last.refracted || v->refracts;
+    p->passages++;
+    go_below(p, v);
+    return carry_on(p, v, GRAZE_LOBE_TRANSMITTED, chance, direction);
+}
+
+/* Whether lights in the mirror that the path has come to are sampled where it was scattered last. */
+static bool is_image(const path *p, const vertex *v) {
+    return p->context->scene->mirror_count > 0 && mirrored_light_is_in(p->context->scene, v->surface) &&
+           lobe_scatters(p->last.lobe);
+}
+
+/* Light samples find what one mirror shows to the viewer's side of where the path was scattered. */
+static bool reflect_image(path *p, const vertex *v, double chance, vec3 *direction) {
+    bool sampled = p->last.mirror < 0 && p->last.lobe < GRAZE_LOBE_MIRROR;
+    p->last.refracted = p->last.refracted || !sampled;
+    p->last.mirror = (int)v->surface;
+    p->depth++;
+    return carry_on(p, v, GRAZE_LOBE_MIRROR, chance, direction);
 }
 
 /* Goes on with one of the lobes of a side, by random[3], which is below the sum of their chances or means the end.
@@ -214,6 +236,8 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
     graze_lobe lobe = diffuse ? diffuse_lobe : specular_lobe;
     if (below && lobe == GRAZE_LOBE_TRANSMITTED)
         return pass(p, v, choice->specular, direction);
+    if (!below && lobe == GRAZE_LOBE_MIRROR && is_image(p, v))
+        return reflect_image(p, v, choice->specular, direction);
     bool ends = diffuse ? choice->diffuse_ends : choice->specular_ends;
     double scale = 1 / (diffuse ? choice->diffuse : choice->specular);
     graze_surface_sample sample = draw_direction(p, &v->shading, lobe, random);
@@ -241,6 +265,9 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
         .indirect = rgb_scale(scale, rgb_multiply(p->throughput, indirect)),
         .ambient = ambient && (!ends || p->context->settings->back_faces_visible),
         .lights = lights,
+        .vertex = v,
+        .mirror = -1,
+        .bounces_left = p->ambient_limit - p->ambient_depth,
         .first = !p->scattered,
     };
     p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));

@@ -49,7 +49,8 @@ static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     if (hit->surface < 0)
         return false;
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    return !material->emits && material->reflector.kind >= GRAZE_GLASS;
+    graze_material_kind kind = material->reflector.kind;
+    return !material->emits && (kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC);
 }
 
 path_hit panes_look_through(const path_context *context, const path_hit *first) {

@@ -13,6 +13,7 @@
 #include "trace/irradiance_cache.h"
 #include "trace/known_light.h"
 #include "trace/lobes.h"
+#include "trace/mirrored_light.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
 #include "trace/vertex.h"
@@ -126,6 +127,8 @@ static void follow(path *p, gathering *here) {
         }
         if (transmits)
             gather_below(p, v, beyond);
+        if (context->scene->mirror_count > 0 && !context->record)
+            mirrored_light_add(p, v, &here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
         if (!context->observer && !decided && known_light_is_all(p, v, &here->lights))
             return;
@@ -145,7 +148,7 @@ static void follow(path *p, gathering *here) {
             p->direct = p->radiance;
         if (p->known.controls | p->known.watched)
             known_light_subtract_reflected(p, v, &hit, found);
-        here = p->last.lights == &later[0].lights ? &later[1] : &later[0];
+        here = p->last.vertex == &later[0].vertex ? &later[1] : &later[0];
         here->decided = false;
         if (!vertex_at_hit(p, &hit, &here->vertex) || take_from_cache(p, &hit, &here->vertex))
             return;
@@ -166,6 +169,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
     p->last.lights = NULL;
+    p->last.vertex = NULL;
     p->last.first = true;
     p->last.passed = p->last.refracted = false;
     p->last.travelled = 0;

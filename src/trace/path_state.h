@@ -21,6 +21,9 @@ typedef struct scattering {
     bool passed;                /* it has been let through since then, */
     bool refracted;             /* and not straight on: no light sample finds what is found beyond; */
     double travelled;           /* so far, to where it was */
+    const vertex *vertex;       /* where it was; its lights are the above, unless it transmitted */
+    int mirror;                 /* the flat mirror that has reflected the path since then, or -1 */
+    int bounces_left;           /* there */
 } scattering;
 
 /* What is known of lights at the last vertex without sampling them, a bit for each of the first PATH_FEW_LIGHTS. */

@@ -5,6 +5,7 @@
 #include "geometry/placed.h"
 #include "scene/surface.h"
 #include "trace/appearance.h"
+#include "trace/mirrored_light.h"
 
 /* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
 #define SENSOR_HEIGHT 1e-4
@@ -60,7 +61,9 @@ rgb vertex_function_value(const vertex *v, vec3 direction) {
 
 /* Whether a path that carries nothing may still find lights behind a surface. */
 static bool looks_through(const path *p, const scene_material *material, int64_t surface) {
-    bool clear = scene_surface_passes(p->context->scene, surface) || material->reflector.kind == GRAZE_DIELECTRIC;
+    const graze_scene *scene = p->context->scene;
+    bool clear = scene_surface_passes(scene, surface) || material->reflector.kind == GRAZE_DIELECTRIC ||
+                 mirrored_light_is_in(scene, surface);
     return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
 }
 

@@ -204,20 +204,33 @@ static inline double roll_roughness(random_scene *s) {
                                            : roll_size(&s->dice, 0.05, 1);
 }
 
-/* Glass, and trans of all kinds. What dielectrics do only luck finds. */
+/* Glass, trans of all kinds, mirrors, and what is none of these but new, too. What dielectrics do only luck finds. */
 static inline void add_clear_material(random_scene *s, int number) {
-    int type = roll_below(&s->dice, 4);
-    print_scene(s, "void %s m%d", type == 0 ? "glass" : type == 3 ? "trans2" : "trans", number);
-    if (type == 3) {
+    static const struct {
+        const char *type;
+        int reals;
+        bool oriented;
+    } types[] = {{"glass", 3, false}, {"trans", 7, false},  {"trans", 7, false},
+                 {"trans2", 8, true}, {"mirror", 3, false}, {"ashik2", 8, true}};
+    int type = roll_below(&s->dice, s->kind == RANDOM_SMALL_LIGHT ? 4 : 6);
+    print_scene(s, "void %s m%d", types[type].type, number);
+    if (types[type].oriented) {
         print_scene(s, " 4");
         print_vector(s, place_vector(&s->placement, roll_direction(&s->dice)));
-        print_scene(s, " . 0 8");
+        print_scene(s, " . 0 %d", types[type].reals);
     } else {
-        print_scene(s, " 0 0 %d", type == 0 ? 3 : 7);
+        print_scene(s, " 0 0 %d", types[type].reals);
     }
     for (int i = 0; i < 3; i++)
-        print_scene(s, " %.17g", roll_between(&s->dice, 0.3, 0.95));
-    if (type > 0) {
+        print_scene(s, " %.17g", roll_between(&s->dice, 0.3, type == 5 ? 0.5 : 0.95));
+    if (type == 5) {
+        for (int i = 0; i < 3; i++)
+            print_scene(s, " %.17g", roll_between(&s->dice, 0.1, 0.5));
+        for (int i = 0; i < 2; i++) {
+            double roughness = roll_roughness(s);
+            print_scene(s, " %.17g", fmin(2 / (roughness * roughness), 1e6));
+        }
+    } else if (types[type].reals > 3) {
         print_scene(s, " %.17g %.17g", roll_between(&s->dice, 0, 0.2), type == 1 ? 0 : roll_roughness(s));
         if (type == 3)
             print_scene(s, " %.17g", roll_roughness(s));
