@@ -344,6 +344,11 @@ def cases():
     sheets = grid([-.95, 0, .1], [1.95, 0, 1.9], 144, clear)
     yield Case("sheets before lamps", "frosted", aim([.4, -2, 1.4], sheets), "-ab 0", "-ds .001 -ss 64", repeat=256, samples=8192)
     yield Case("sheets before a glow", "frosted_glow", aim([.5, -8, 1], sheets), "-ab 1", "-ss 64 -ad 1024", repeat=64, samples=16384)
+    yield Case("highlights of ashik2", "ashik", aim([.4, -2, 2], grid([-1.5, -.8, 0], [3.5, 2.8, 0], 144, clear)), "-ab 0", "-ds .001",
+               repeat=256, samples=8192)
+    yield Case("floor lit by a mirror, irradiance", "images", under, "-I -ab 0", "-dr 1 -dp 0", repeat=512, samples=16384)
+    yield Case("mirror and what it lights", "images", aim([.3, -3.5, 2], grid([-2, 2, 0], [2, 2, 2.5], 64, clear)), "-ab 0",
+               "-dr 1 -dp 0", repeat=256, samples=16384)
     yield Case("glass ball, drop and bead", "clear", aim([.2, -4, 1.5], grid([-1.8, 0, -.9], [1.9, 0, .9], 144, clear)), "-ab 0",
                repeat=4, samples=32768)
 

@@ -178,6 +178,40 @@ static void a_floor_lit_through_panes(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* A lamp over a floor and its image behind a wall that is all mirror: of a ball that is seen wholly, (r/d)^2 cos of its
+ * radiance is what a dull surface gets, times its colour. Where the floor shines, the three ways only have to agree. */
+static void a_lamp_and_its_image(void **state) {
+    (void)state;
+    const char *floors[] = {"plastic f 0 0 5 .5 .5 .5 0 0", "metal f 0 0 5 .5 .5 .5 .8 .15"};
+    for (int shiny = 0; shiny < 2; shiny++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "void %s f polygon floor 0 0 12 -9 -9 0 9 -9 0 9 1 0 -9 1 0\n"
+                 "void mirror m 0 0 3 .9 .8 .7 m polygon wall 0 0 12 -900 1 -900 900 1 -900 900 1 900 -900 1 900\n"
+                 "void light l 0 0 3 10 10 10 l sphere lamp 0 0 4 .5 0 1 .3\n",
+                 floors[shiny]);
+        graze_scene *scene = load(text);
+        const graze_ray ray = {.origin = {-1, -1.5, 0.8}, .direction = {1, 1.5, -0.8}};
+        double direct = pow(1.25, -1.5), image = 0.8 * pow(0.25 + 4 + 1, -1.5);
+        double truth = 0.5 * 10 * 0.09 * (direct + image);
+        for (int bounces = 0; bounces < 2; bounces++)
+            for (int strategy = 0; strategy < 3; strategy++) {
+                graze_trace_settings s = graze_trace_defaults();
+                graze_answer a;
+                s.strategy = (graze_strategy)strategy;
+                s.ambient_bounces = bounces;
+                s.samples = 1 << 15;
+                if (shiny) {
+                    graze_trace(scene, &s, &ray, 1, &a, NULL);
+                    if (bounces + strategy == 0)
+                        truth = a.value.g;
+                }
+                assert_radiance(scene, &s, &ray, 2, truth, 0.03);
+            }
+        graze_scene_destroy(scene);
+    }
+}
+
 /* What is inside a clear body is seen through so much of it. */
 static void a_lamp_in_a_dark_ball(void **state) {
     (void)state;
@@ -194,8 +228,9 @@ static void a_lamp_in_a_dark_ball(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clear_things_in_a_white_world), cmocka_unit_test(a_floor_lit_through_panes),
-        cmocka_unit_test(a_lamp_in_a_dark_ball),         cmocka_unit_test(lamp_in_a_grey_ball),
-        cmocka_unit_test(white_things_in_a_white_world), cmocka_unit_test(glossy_ball_in_a_white_world),
+        cmocka_unit_test(a_lamp_in_a_dark_ball),         cmocka_unit_test(a_lamp_and_its_image),
+        cmocka_unit_test(lamp_in_a_grey_ball),           cmocka_unit_test(white_things_in_a_white_world),
+        cmocka_unit_test(glossy_ball_in_a_white_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
