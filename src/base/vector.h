@@ -108,6 +108,9 @@ static inline rgb rgb_add_scaled(rgb a, double s, rgb b) {
 static inline double rgb_max(rgb a) {
     return double_max(a.r, double_max(a.g, a.b));
 }
+static inline double rgb_min(rgb a) {
+    return double_min(a.r, double_min(a.g, a.b));
+}
 static inline int rgb_is_black(rgb a) {
     return a.r == 0 && a.g == 0 && a.b == 0;
 }

@@ -52,6 +52,10 @@ bool geometry_shines(const geometry *g, int64_t surface) {
     return geometry_find(g, surface).shape->shines;
 }
 
+bool geometry_passes(const geometry *g, int64_t surface) {
+    return geometry_find(g, surface).shape->passes;
+}
+
 /* The box around the box, as turned. */
 void geometry_copy_bounds(const geometry *g, const geometry_placement *placement, vec3 *lower, vec3 *upper) {
     const geometry_tree *tree = &g->trees[placement->group];

@@ -87,4 +87,8 @@ bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
  * be: as if the copy's surfaces stood in the scene themselves. */
 bool geometry_occluded(const geometry *, const geometry_ray *, int64_t target);
 
+/* The same where shapes that light passes do not count. Where there are some on the ray and it is not occluded,
+ * `panes` is true: geometry_intersect finds them, one after another, up to `far` or the target. */
+bool geometry_occluded_but_for_panes(const geometry *, const geometry_ray *, int64_t target, bool *panes);
+
 #endif

@@ -71,6 +71,8 @@ typedef struct query {
     int64_t from, target;
     bool any; /* whether something blocks the ray is all that is asked */
     bool found_any;
+    bool passes_panes; /* what light passes does not block, but */
+    bool found_pane;   /* this is told */
     candidate nearest, nearest_front, nearest_shining;
     const miss *around; /* the miss that is being looked after */
     int miss_count;
@@ -166,10 +168,18 @@ static bool blocks(const query *q, const candidate *c) {
     return !geometry_shines(q->geometry, q->target) || c->surface > q->target;
 }
 
+static void block(query *q, const candidate *c) {
+    if (q->passes_panes && geometry_passes(q->geometry, c->surface))
+        q->found_pane = true;
+    else
+        q->found_any = true;
+}
+
 /* Takes a crossing into account; true where that shortens the search. */
 static bool offer(query *q, candidate c) {
     if (q->any) {
-        q->found_any = q->found_any || blocks(q, &c);
+        if (!q->found_any && blocks(q, &c))
+            block(q, &c);
         return q->found_any;
     }
     bool front = c.slope < 0;
@@ -568,7 +578,7 @@ static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
     q->far = ray->far;
     q->from = ray->from;
     q->target = -1;
-    q->any = q->found_any = false;
+    q->any = q->found_any = q->passes_panes = false;
     q->nearest = q->nearest_front = q->nearest_shining = nothing;
     q->around = NULL;
     q->miss_count = 0;
@@ -633,5 +643,23 @@ bool geometry_occluded(const geometry *g, const geometry_ray *ray, int64_t targe
         return false;
     q.visit = &scene;
     trace(&q);
+    return q.found_any;
+}
+
+bool geometry_occluded_but_for_panes(const geometry *g, const geometry_ray *ray, int64_t target, bool *panes) {
+    *panes = false;
+    if (!g->trees[0].scene || !is_ray(ray))
+        return false;
+    query q;
+    prepare(&q, g, ray);
+    q.target = target;
+    q.any = q.passes_panes = true;
+    q.found_pane = false;
+    visit scene = visit_of_scene(g);
+    if (!clip(&q, &scene))
+        return false;
+    q.visit = &scene;
+    trace(&q);
+    *panes = q.found_pane && !q.found_any;
     return q.found_any;
 }

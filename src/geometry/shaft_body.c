@@ -254,7 +254,7 @@ static geometry_visibility meet_ring(const shaft *s, const shape *ring, int surf
     return plane_is_beside(s, &plane) || body_is_beside(s, ring, surface) ? GEOMETRY_CLEAR : GEOMETRY_MIXED;
 }
 
-geometry_visibility shaft_meets_shape(shaft *s, const geometry *g, int surface, int *budget) {
+static geometry_visibility meet_shape(shaft *s, const geometry *g, int surface, int *budget) {
     const shape *body = &g->trees[0].shapes[surface];
     bool left = surface == s->sight->from;
     double light = s->sight->light < 0 ? 0 : g->trees[0].reach[s->sight->light];
@@ -273,4 +273,9 @@ geometry_visibility shaft_meets_shape(shaft *s, const geometry *g, int surface, 
         return body_is_beside(s, body, surface) ? GEOMETRY_CLEAR : GEOMETRY_MIXED;
     }
     return GEOMETRY_MIXED;
+}
+
+geometry_visibility shaft_meets_shape(shaft *s, const geometry *g, int surface, int *budget) {
+    geometry_visibility found = meet_shape(s, g, surface, budget);
+    return found == GEOMETRY_BLOCKED && g->trees[0].shapes[surface].passes ? GEOMETRY_MIXED : found;
 }

@@ -5,7 +5,7 @@ static rgb reflect_sample(const graze_surface *s, const frame *f, const graze_li
     vec3 l = frame_to_local(f, sample->direction);
     rgb diffuse, glossy;
     material_local_value(s, l, &diffuse, &glossy);
-    double projected_solid_angle = fmax(0, l.z) * sample->solid_angle;
+    double projected_solid_angle = fabs(l.z) * sample->solid_angle; /* what is below is black unless it comes through */
     return rgb_multiply(rgb_scale(projected_solid_angle, rgb_add(diffuse, glossy)), sample->radiance);
 }
 

@@ -14,4 +14,10 @@ static inline double material_fresnel(double cosine) {
     return fmax(0, exp(-5.85 * cosine) - 0.00287989916);
 }
 
+/* Schlick's approximation, for ashik2. */
+static inline double material_schlick(double cosine) {
+    double part = fmax(1 - cosine, 0), square = part * part;
+    return square * square * part;
+}
+
 #endif

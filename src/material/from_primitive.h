@@ -7,12 +7,13 @@
 #include "graze/material.h"
 #include "rad/scene_file.h"
 
-/* Whether the type is `plastic`, `metal`, `plastic2` or `metal2`. */
+/* Whether the type has a reflectance model: `plastic`, `metal`, `trans`, `plastic2`, `metal2` or `trans2`. */
 bool material_is_reflector(rad_type);
 
-/* Reads `plastic`, `metal`, `plastic2` and `metal2`. Wrong arguments and all other types of material are errors.
- * Parameters with which a surface may reflect more light than it receives are warned of and taken as they are, as in
- * Radiance. An orientation by functions (material/orientation.h) is left null. */
+/* Reads `plastic`, `metal`, `trans`, their anisotropic kin, `glass`, `dielectric` and `interface`. Wrong arguments and
+ * all other types of material are errors. Parameters with which a surface may reflect more light than it receives are
+ * warned of and taken as they are, as in Radiance. An orientation by functions
+ * (material/orientation.h) is left null. */
 graze_status material_from_primitive(graze_material *, const rad_primitive *, const graze_report *);
 
 #endif

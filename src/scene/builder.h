@@ -19,6 +19,9 @@ void scene_fail(scene_builder *, graze_status);
 /* The material of a surface, or a negative number where it has none that can be used (reported). */
 int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
 
+/* Whether some light goes straight through some of it. */
+bool scene_material_is_pane(const graze_scene *, const scene_material *);
+
 /* Builds what the instances and meshes of all parts are copies of; graze_scene.parts are then filled in. */
 void scene_add_copies(scene_builder *);
 

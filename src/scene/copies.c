@@ -53,6 +53,7 @@ static void add_surface(scene_builder *b, scene_part *part, int primitive) {
     if (status || degenerate || material < 0)
         return;
     s->shines = scene->materials[material].emits;
+    s->passes = scene_material_is_pane(scene, &scene->materials[material]);
     part->surfaces[part->surface_count++] = make_surface(b, primitive, material, s, p);
 }
 
@@ -95,6 +96,7 @@ static void add_triangle(scene_builder *b, scene_part *part, vec3 *vertices, siz
     if (material < 0)
         return;
     s->shines = b->scene->materials[material].emits;
+    s->passes = scene_material_is_pane(b->scene, &b->scene->materials[material]);
     part->surfaces[index] = make_surface(b, primitive, material, s, p);
 }
 
@@ -162,6 +164,24 @@ static void add_copies_of_part(scene_builder *b, size_t number, const rad_part *
         add_copy(b, number, part, &copies[from->first_copy + i]);
 }
 
+static bool is_glazed(const graze_scene *scene, const scene_part *part) {
+    for (size_t i = 0; i < part->copy_count; i++)
+        if (part->copies[i].replaces &&
+            scene_material_is_pane(scene, &scene->materials[part->copies[i].surface.material]))
+            return true;
+    return false;
+}
+
+/* Where a copy has light go through all that is in it, whatever that is made of, any copied shape may. */
+static void let_light_through(graze_scene *scene) {
+    bool glazed = false;
+    for (size_t i = 0; i < scene->part_count; i++)
+        glazed = glazed || is_glazed(scene, &scene->parts[i]);
+    for (size_t i = 1; i < scene->part_count && glazed; i++)
+        for (size_t k = 0; k < scene->parts[i].surface_count; k++)
+            scene->parts[i].shapes[k].passes = true;
+}
+
 /* Users before what they use, so that it is known of meshes whether their own materials are needed. */
 void scene_add_copies(scene_builder *b) {
     graze_scene *scene = b->scene;
@@ -185,4 +205,6 @@ void scene_add_copies(scene_builder *b) {
         if (b->status != GRAZE_SYSTEM_ERROR)
             add_copies_of_part(b, i, &from[i]);
     }
+    if (b->status == GRAZE_OK && scene->has_panes)
+        let_light_through(scene);
 }

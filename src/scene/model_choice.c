@@ -26,8 +26,8 @@ static graze_status check_name(const char *name, const rad_primitive *primitives
         other = &primitives[i];
     }
     if (other)
-        return rad_primitive_error(report, other,
-                                   "has no reflectance model to choose: plastic, metal, plastic2 and metal2 have");
+        return rad_primitive_error(
+            report, other, "has no reflectance model to choose: plastic, metal, trans and their like with a 2 have");
     return report_error(report, NULL, "there is no material '%s' to choose a reflectance model for", name);
 }
 

@@ -54,6 +54,18 @@ static bool is_mirror(const scene_material *material) {
     return probe.specular_lobe == GRAZE_LOBE_MIRROR;
 }
 
+bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
+    if (material->mixture)
+        return scene_material_is_pane(scene, &scene->materials[material->fore]) ||
+               scene_material_is_pane(scene, &scene->materials[material->back]);
+    return !material->emits && !material->reflection && !material->wgmd &&
+           !rgb_is_black(graze_material_straight_through(&material->reflector, 1));
+}
+
+static bool refracts(const scene_material *material) {
+    return !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
+}
+
 static int material_of(scene_builder *, int modifier);
 
 static graze_status need_modifiers(scene_builder *b) {
@@ -89,8 +101,11 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
     material->back = material_of(b, mixture->back);
     if (material->fore < 0 || material->back < 0)
         return b->status;
-    if (b->scene->materials[material->fore].emits || b->scene->materials[material->back].emits)
+    const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
+    if (fore->emits || back->emits)
         return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
+    if (refracts(fore) || refracts(back))
+        return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
     return GRAZE_OK;
 }
 
@@ -141,7 +156,9 @@ static int add_material(scene_builder *b, int modifier) {
     }
     made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection && !made.wgmd;
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || refracts(&made);
+    scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
+    scene->has_refraction = scene->has_refraction || refracts(&made);
     return (int)scene->material_count++;
 }
 
@@ -181,6 +198,23 @@ static void check_orientation(const scene_builder *b, const rad_primitive *surfa
                               "lies across the orientation vector of its material, which is then isotropic");
 }
 
+/* Flat mirrors, in which lights are sampled. */
+static void note_mirror(scene_builder *b, int index) {
+    graze_scene *scene = b->scene;
+    const scene_material *m = &scene->materials[scene->surfaces[index].material];
+    shape_kind kind = scene->shapes[index].kind;
+    if (m->emits || !m->plain || m->reflector.kind != GRAZE_MIRROR || (kind != SHAPE_POLYGON && kind != SHAPE_RING))
+        return;
+    int *grown = realloc(scene->mirrors, (scene->mirror_count + 1) * sizeof *grown);
+    if (!grown) {
+        scene_fail(b, report_out_of_memory(b->report));
+        return;
+    }
+    scene->mirrors = grown;
+    scene->mirrors[scene->mirror_count++] = index;
+    scene->surfaces[index].mirrors = true;
+}
+
 static void add_shape(scene_builder *b, int primitive) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[primitive];
@@ -201,6 +235,8 @@ static void add_shape(scene_builder *b, int primitive) {
     scene->surface_count++;
     check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
     scene->shapes[index].shines = scene->materials[material].emits;
+    note_mirror(b, (int)index);
+    scene->shapes[index].passes = scene_material_is_pane(scene, &scene->materials[material]);
     if (!scene->materials[material].emits)
         return;
     if (!shape_prepare_light(&scene->shapes[index], scene->memory))
@@ -399,6 +435,7 @@ void graze_scene_destroy(graze_scene *scene) {
     }
     free(scene->parts);
     free(scene->lights);
+    free(scene->mirrors);
     free(scene->materials);
     free(scene->surfaces);
     free(scene->shapes);

@@ -68,6 +68,7 @@ typedef struct scene_surface {
     int material;    /* index into materials */
     int light;       /* index into lights, or -1 */
     bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
+    bool mirrors;    /* flat, of the material `mirror`, not patterned */
 } scene_surface;
 
 /* An instance or a mesh in a part. */
@@ -102,7 +103,11 @@ struct graze_scene {
     scene_material *materials;
     size_t material_count;
     material_modifiers *modifiers; /* null where no material has any */
-    bool has_mirrors;
+    bool has_mirrors;              /* or dielectrics: light comes by ways that no light sample finds */
+    int *mirrors;                  /* mirror_count surfaces that do mirror */
+    size_t mirror_count;
+    bool has_panes;      /* surfaces that light goes straight through */
+    bool has_refraction; /* dielectrics */
     scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;

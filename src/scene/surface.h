@@ -11,6 +11,12 @@ static inline scene_surface scene_surface_at(const graze_scene *scene, int64_t n
     return number < (int64_t)scene->surface_count ? scene->surfaces[number] : scene_copied_surface(scene, number);
 }
 
+/* Whether light may go straight through the surface (shape.passes). */
+static inline bool scene_surface_passes(const graze_scene *scene, int64_t number) {
+    return number < (int64_t)scene->surface_count ? scene->shapes[number].passes
+                                                  : geometry_find(scene->geometry, number).shape->passes;
+}
+
 /* Whether the surface's material is written for another place than the scene: that of the transform, which leads into
  * the scene. An instance's own modifier is written for where the instance stands. */
 bool scene_material_is_moved(const graze_scene *, int64_t number, rad_transform *);

@@ -99,10 +99,21 @@ static void prepare_function(const path *p, const path_hit *hit, const encounter
     v->function_color = rgb_scale(r->specularity, r->metal ? color : rgb_gray(1));
 }
 
+/* Of panes, what they transmit is multiplied by the pattern; of dielectrics, what a unit of length does. */
+static graze_material patterned(const graze_material *m, rgb pattern) {
+    graze_material patterned = *m;
+    if (m->kind == GRAZE_DIELECTRIC) {
+        rgb inside = colored(m->inside, pattern);
+        patterned.inside = (rgb){fmin(inside.r, 1), fmin(inside.g, 1), fmin(inside.b, 1)};
+    } else if (m->kind != GRAZE_GLASS) {
+        patterned.color = colored(m->color, pattern);
+    }
+    return patterned;
+}
+
 static void prepare_reflector(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                               const material_effect *e, vertex *v) {
-    graze_material reflector = m->reflector;
-    reflector.color = colored(reflector.color, e->color);
+    graze_material reflector = patterned(&m->reflector, e->color);
     if (m->orientation) {
         material_ray own = of->ray;
         own.normal = as_written(of, v->normal);
@@ -112,7 +123,11 @@ static void prepare_reflector(const path *p, const path_hit *hit, const encounte
         reflector.orientation = rad_transform_vector(&of->transform, reflector.orientation);
     vec3 normal;
     lean_vertex(hit, of, e, v, &normal);
+    if (reflector.kind >= GRAZE_DIELECTRIC && hit->behind)
+        normal = vec3_negate(normal);
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
+    if (reflector.kind == GRAZE_GLASS && v->shading.transmits)
+        v->shading.transmitted_specular = colored(v->shading.transmitted_specular, e->color);
     vertex_find_ambient(p, v, &reflector);
 }
 
@@ -135,8 +150,8 @@ static rgb blend(double share, rgb a, rgb b) {
 static bool blend_vertices(vertex *v, double share, const vertex *fore, const vertex *back) {
     const graze_surface *a = &fore->shading, *b = &back->shading;
     bool one_lobe = a->specular_lobe == GRAZE_LOBE_NONE || b->specular_lobe == GRAZE_LOBE_NONE;
-    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel ||
-        (!one_lobe && !have_same_lobe(fore, back)))
+    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel || a->transmits ||
+        b->transmits || (!one_lobe && !have_same_lobe(fore, back)))
         return false;
     *v = a->specular_lobe == GRAZE_LOBE_NONE ? *back : *fore;
     v->shading.diffuse = blend(share, a->diffuse, b->diffuse);
@@ -241,4 +256,26 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
             return lean(hit, &of, &e);
         m = &scene->materials[material_mixture_share(m->mixture, &of.ray) >= 0.5 ? m->fore : m->back];
     }
+}
+
+static rgb straight_through(const scene_material *materials, const scene_material *m, const path_hit *hit,
+                            const encounter *of, material_effect e) {
+    if (m->emits || m->reflection || m->wgmd)
+        return rgb_gray(0);
+    if (m->modifiers)
+        e = add_effect(m->modifiers, &of->ray, e);
+    if (m->mixture) {
+        double share = material_mixture_share(m->mixture, &of->ray);
+        rgb fore = straight_through(materials, &materials[m->fore], hit, of, e);
+        return blend(share, fore, straight_through(materials, &materials[m->back], hit, of, e));
+    }
+    graze_material reflector = patterned(&m->reflector, e.color);
+    vec3 normal = lean(hit, of, &e);
+    rgb through = graze_material_straight_through(&reflector, fabs(vec3_dot(normal, hit->direction)));
+    return reflector.kind == GRAZE_GLASS ? colored(through, e.color) : through;
+}
+
+rgb appearance_straight_through(const graze_scene *scene, const scene_material *m, const path_hit *hit, double length) {
+    const encounter of = meet(scene, hit, length);
+    return straight_through(scene->materials, m, hit, &of, of.effect);
 }

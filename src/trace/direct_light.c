@@ -4,6 +4,7 @@
 #include "base/angle.h"
 #include "trace/known_light.h"
 #include "trace/observer.h"
+#include "trace/panes.h"
 #include "trace/vertex.h"
 
 /* Few lights are all sampled at the first point, and up to so many at later ones. */
@@ -11,6 +12,13 @@
 /* Of more, so many are chosen. */
 #define CHOSEN_FIRST 4
 #define CHOSEN_LATER 2
+
+static int draws(const path *p) {
+    bool first = p->depth == 0;
+    if (p->context->scene->light_count <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER))
+        return LIGHT_EVERY_ONE;
+    return first ? CHOSEN_FIRST : CHOSEN_LATER;
+}
 
 void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) {
     const path_context *context = p->context;
@@ -31,23 +39,65 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
         if (glossy && !v->gloss_is_ambient)
             receiver.ambient_glossy = v->shading.specular;
     }
-    bool first = p->depth == 0, every = context->scene->light_count <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER);
-    receiver.draws = every ? LIGHT_EVERY_ONE : first ? CHOSEN_FIRST : CHOSEN_LATER;
+    receiver.draws = draws(p);
     light_choice_prepare(lights, context->scene, &receiver);
 }
 
-/* Whether nothing stands between a vertex and a light's sampled point. */
-static bool light_is_visible(const path *p, const vertex *v, const light_sample *sample) {
+/* The surface upside down. Its lobe, which only tells the choice where to look, has its middle in the direction
+ * straight on, and there the width of the transmitted one: a reflecting facet turns light by twice its own slope. */
+static graze_surface turn_over(const graze_surface *s) {
+    graze_surface other = *s;
+    frame f = {s->y, s->x, vec3_negate(s->n)};
+    vec3 middle = frame_to_local(&f, s->transmitted);
+    other.x = f.x;
+    other.y = f.y;
+    other.n = f.z;
+    other.local_view = vec3_make(-middle.x, -middle.y, middle.z);
+    other.view = frame_to_world(&f, other.local_view);
+    other.lobe = (graze_brdf){GRAZE_BRDF_GMD, s->transmitted_v / 2, s->transmitted_u / 2};
+    return other;
+}
+
+void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyond) {
+    const graze_surface *s = &v->shading;
+    bool glossy = s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
+    light_receiver receiver = {.point = v->point, .surface = &beyond->surface, .diffuse = s->transmitted_diffuse};
+    if (!context_samples_lights(p->context->settings) || (!glossy && rgb_is_black(v->transmitted_ambient))) {
+        light_choice_none(&beyond->lights);
+        return;
+    }
+    beyond->surface = turn_over(s);
+    if (glossy)
+        receiver.glossy = s->transmitted_specular;
+    if (context_samples_glows(p->context->settings)) {
+        if (path_bounces_left(p))
+            receiver.ambient_diffuse = v->transmitted_ambient;
+        if (glossy && !v->transmitted_gloss_is_ambient)
+            receiver.ambient_glossy = s->transmitted_specular;
+    }
+    receiver.draws = draws(p);
+    light_choice_prepare(&beyond->lights, p->context->scene, &receiver);
+}
+
+/* Whether nothing stands between a vertex and a light's sampled point, but for panes, which leave some of its light. */
+static bool light_is_visible(const path *p, const vertex *v, const light_sample *sample, rgb *light) {
     const graze_scene *scene = p->context->scene;
+    int target = scene->lights[sample->light].surface;
     geometry_ray ray = {
         .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
-    return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
+    if (!scene->has_panes)
+        return !geometry_occluded(scene->geometry, &ray, target);
+    *light = rgb_multiply(panes_transmittance(p->context, &ray, p->length, target), *light);
+    return !rgb_is_black(*light);
 }
+
+/* Of what is compiled for each side by itself. */
+#define ONE_SIDE inline __attribute__((always_inline))
 
 /* The reflectance functions for a light sample, by the rules for its role, weighted against finding the light by
  * reflection. */
-static rgb reflectance_for_light(const path *p, const vertex *v, const light_sample *sample, double density,
-                                 lobe_choice choice) {
+static ONE_SIDE rgb reflectance_for_light(const path *p, const vertex *v, const light_sample *sample, double density,
+                                          const lobe_choice *choice, bool below) {
     const path_context *context = p->context;
     light_role role = light_role_at(&context->scene->lights[sample->light], sample->distance);
     bool ambient = role == LIGHT_AMBIENT;
@@ -58,42 +108,47 @@ static rgb reflectance_for_light(const path *p, const vertex *v, const light_sam
     if (v->function && !ambient)
         diffuse = rgb_add(diffuse, vertex_function_value(v, sample->direction));
     if (ambient)
-        diffuse = path_bounces_left(p) ? rgb_scale(1 / PI, v->ambient) : rgb_gray(0);
-    if (ambient && v->gloss_is_ambient)
+        diffuse = path_bounces_left(p) ? rgb_scale(1 / PI, below ? v->transmitted_ambient : v->ambient) : rgb_gray(0);
+    if (ambient && (below ? v->transmitted_gloss_is_ambient : v->gloss_is_ambient))
         glossy = rgb_gray(0);
     if (context->settings->strategy == GRAZE_STRATEGY_LIGHT)
         return rgb_add(diffuse, glossy);
-    if (choice.diffuse > 0) {
-        double rival = choice.diffuse * graze_surface_density(&v->shading, GRAZE_LOBE_DIFFUSE, sample->direction);
+    if (choice->diffuse > 0) {
+        graze_lobe lobe = below ? GRAZE_LOBE_TRANSMITTED_DIFFUSE : GRAZE_LOBE_DIFFUSE;
+        double rival = choice->diffuse * graze_surface_density(&v->shading, lobe, sample->direction);
         diffuse = rgb_scale(power_heuristic(density, rival), diffuse);
     }
-    if (choice.specular > 0 && v->shading.specular_lobe == GRAZE_LOBE_GLOSSY) {
-        double rival = choice.specular * graze_surface_density(&v->shading, GRAZE_LOBE_GLOSSY, sample->direction);
+    graze_lobe lobe = below ? GRAZE_LOBE_TRANSMITTED_GLOSSY : GRAZE_LOBE_GLOSSY;
+    if (choice->specular > 0 && (below ? v->shading.transmitted_lobe : v->shading.specular_lobe) == lobe) {
+        double rival = choice->specular * graze_surface_density(&v->shading, lobe, sample->direction);
         glossy = rgb_scale(power_heuristic(density, rival), glossy);
     }
     return rgb_add(diffuse, glossy);
 }
 
 /* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. */
-static void add_sampled_light(path *p, const vertex *v, int light, double expectation, const double random[2],
-                              lobe_choice choice) {
+static ONE_SIDE void add_sampled_light(path *p, const vertex *v, int light, double expectation, const double random[2],
+                                       const lobe_choice *choice, bool below) {
     light_sample sample = light_draw(p->context->scene, v->point, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
         return;
     double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * sample.density;
-    if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0))
+    if (below)
+        cosine = -cosine;
+    if (cosine <= 0 || (v->leans && (vec3_dot(sample.direction, v->normal) <= 0) != below))
         return;
-    rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice), sample.radiance);
+    rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice, below), sample.radiance);
     if (rgb_is_black(reflected))
         return;
-    bool lit = light_is_visible(p, v, &sample);
-    rgb found = rgb_scale(cosine / density, rgb_multiply(p->throughput, reflected));
+    rgb whole = rgb_scale(cosine / density, rgb_multiply(p->throughput, reflected));
+    rgb found = whole;
+    bool lit = light_is_visible(p, v, &sample, &found);
     if (lit) {
         p->radiance = rgb_add(p->radiance, found);
         observe_shadow_ray(p, v->point, &sample, found);
     }
     if (known_light_is_control(p, light))
-        known_light_subtract(p, light, found, lit);
+        known_light_subtract(p, light, whole, lit ? rgb_brightness(found) : 0);
 }
 
 /* Where a number in [0,1) is after some steps of the given length around the circle of these numbers. Steps of 1/g and
@@ -103,27 +158,42 @@ static double step(double random, int steps, double length) {
     return x - floor(x);
 }
 
-static void add_every_light(path *p, const vertex *v, const light_choice *lights, lobe_choice choice) {
+static ONE_SIDE void add_every_light(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,
+                                     bool below) {
     double random[2];
     for (int light = 0; light < (int)p->context->scene->light_count; light++)
         if (!known_light_is_settled(p, light) && light_expectation(lights, light) > 0) {
             sampler_2d(p->sampler, random);
-            add_sampled_light(p, v, light, 1, random, choice);
+            add_sampled_light(p, v, light, 1, random, choice, below);
         }
 }
 
-void direct_light_add(path *p, const vertex *v, const light_choice *lights, lobe_choice choice) {
+static ONE_SIDE void add_lights(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,
+                                bool below) {
     double random[3];
     if (light_choice_is_every_one(lights)) {
-        add_every_light(p, v, lights, choice);
+        add_every_light(p, v, lights, choice, below);
         return;
     }
     sampler_3d(p->sampler, random);
-    int draws = lights->receiver.draws;
-    for (int i = 0; i < draws; i++) {
+    int count = lights->receiver.draws;
+    for (int i = 0; i < count; i++) {
         double expectation, place_on_light[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
-        int light = light_choose(lights, (random[0] + i) / draws, &expectation);
+        int light = light_choose(lights, (random[0] + i) / count, &expectation);
         if (light >= 0)
-            add_sampled_light(p, v, light, expectation, place_on_light, choice);
+            add_sampled_light(p, v, light, expectation, place_on_light, choice, below);
     }
+}
+
+void direct_light_add(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice) {
+    add_lights(p, v, lights, choice, false);
+}
+
+void direct_light_add_below(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice) {
+    add_lights(p, v, lights, choice, true);
+}
+
+rgb direct_light_reflectance(const path *p, const vertex *v, const light_sample *sample, double density,
+                             const lobe_choice *choice) {
+    return reflectance_for_light(p, v, sample, density, choice, false);
 }

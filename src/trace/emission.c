@@ -3,11 +3,12 @@
 
 #include "trace/appearance.h"
 #include "trace/known_light.h"
+#include "trace/mirrored_light.h"
 
 /* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
 static double found_weight(const path *p, const path_hit *hit, light_role role) {
     const scattering *last = &p->last;
-    if (p->context->scene->lights[hit->light].only_seen)
+    if (last->refracted || p->context->scene->lights[hit->light].only_seen)
         return 1;
     bool rival = role == LIGHT_DIRECT ? context_samples_lights(p->context->settings)
                                       : context_samples_glows(p->context->settings);
@@ -17,6 +18,8 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
         return 1;
     if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
         return 0;
+    if (last->mirror >= 0)
+        return power_heuristic(last->density, mirrored_light_density(p, hit));
     double other = light_expectation(last->lights, hit->light);
     if (other > 0)
         other *= light_density(p->context->scene, last->lights->receiver.point, hit->light, hit->direction, hit->point,
@@ -35,18 +38,19 @@ static rgb patterned(const path *p, const path_hit *hit, rgb radiance) {
 
 rgb emission_radiance(const path *p, const path_hit *hit, bool lights) {
     const scene_light *light = &p->context->scene->lights[hit->light];
+    double distance = hit->distance + p->last.travelled;
     return patterned(p, hit,
-                     lights ? light_radiance_at(light, hit->direction, hit->normal, hit->distance)
+                     lights ? light_radiance_at(light, hit->direction, hit->normal, distance)
                             : light_radiance(light, hit->direction, hit->normal));
 }
 
 rgb emission_found(const path *p, const path_hit *hit) {
     const scene_light *light = &p->context->scene->lights[hit->light];
-    light_role role = light_role_at(light, hit->distance);
+    light_role role = light_role_at(light, hit->distance + p->last.travelled);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
     if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
         return rgb_gray(0);
-    if (p->last.lobe == GRAZE_LOBE_DIFFUSE || p->last.lobe == GRAZE_LOBE_GLOSSY) {
+    if (lobe_scatters(p->last.lobe)) {
         if (known_light_is_settled(p, hit->light))
             return rgb_gray(0);
         if (role == LIGHT_AMBIENT && !p->last.ambient)

@@ -23,10 +23,17 @@ typedef struct vertex {
     bool leans;         /* the normal of `shading` is not the surface's own */
     bool drawn;         /* which material of a mixture the surface has here was drawn at random */
     bool no_ambient;    /* diffuse light from surfaces is not followed here (-ae, -ai) */
+    bool behind;        /* the viewer is behind the surface */
+    double distance;    /* that the path came from */
+    /* Where the surface transmits, of its other side: */
+    rgb transmitted_ambient;
+    bool transmitted_gloss_is_ambient;
+    bool refracts; /* what TRANSMITTED lets through no light sample finds */
+    rgb beyond;    /* transmittance of a unit of length there, if it refracts */
 } vertex;
 
-/* Probabilities of going on with each lobe; they sum to at most 1. Where a lobe `ends`, the ray only looks for lights
- * that shine on the vertex: what sampling the lights would find. */
+/* Probabilities of going on with each lobe of one side; they sum to at most 1. Where a lobe `ends`, the ray only looks
+ * for lights that shine on the vertex: what sampling the lights would find. */
 typedef struct lobe_choice {
     double diffuse, specular;
     bool diffuse_ends, specular_ends;
@@ -39,5 +46,12 @@ typedef struct gathering {
     lobe_choice lobes;
     light_choice lights;
 } gathering;
+
+/* The same of the other side of a surface that transmits: the surface as light from there sees it. */
+typedef struct other_side {
+    graze_surface surface;
+    lobe_choice lobes;
+    light_choice lights;
+} other_side;
 
 #endif

@@ -4,6 +4,12 @@
 #include "scene/light.h"
 #include "scene/surface.h"
 
+/* Whether the surface bounds a clear body, which is looked at from inside, too. */
+static bool is_solid(const graze_scene *scene, int64_t surface) {
+    const scene_material *material = &scene->materials[scene_surface_at(scene, surface).material];
+    return !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
+}
+
 path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {
     const graze_scene *scene = context->scene;
     path_hit hit = {.surface = -1, .light = -1, .distance = GEOMETRY_FAR, .point = origin, .direction = direction};
@@ -12,20 +18,21 @@ path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, dou
     double travelled = 0;
     while (geometry_intersect(scene->geometry, &ray, &found)) {
         bool behind = vec3_dot(found.normal, direction) > 0;
-        if (!behind || context->settings->back_faces_visible) {
-            hit.surface = found.surface;
-            hit.light = scene_surface_at(scene, found.surface).light;
-            hit.distance = travelled + found.distance;
-            hit.point = found.point;
-            hit.normal = found.normal;
-            hit.behind = behind;
-            return hit;
+        if (behind && !context->settings->back_faces_visible && !is_solid(scene, found.surface)) {
+            hit.passed = hit.passed || !scene_surface_passes(scene, found.surface);
+            travelled += found.distance;
+            ray.origin = found.point;
+            ray.far -= found.distance;
+            ray.from = found.surface;
+            continue;
         }
-        hit.passed = true;
-        travelled += found.distance;
-        ray.origin = found.point;
-        ray.far -= found.distance;
-        ray.from = found.surface;
+        hit.surface = found.surface;
+        hit.light = scene_surface_at(scene, found.surface).light;
+        hit.distance = travelled + found.distance;
+        hit.point = found.point;
+        hit.normal = found.normal;
+        hit.behind = behind;
+        return hit;
     }
     if (limit >= GEOMETRY_FAR)
         hit.light = light_source_towards(scene, direction);

@@ -19,13 +19,12 @@ static path_control *control_of(path *p, int light) {
     return &p->controls[p->known.shared ? PATH_FEW_LIGHTS : light];
 }
 
-void known_light_subtract(path *p, int light, rgb found, bool lit) {
+void known_light_subtract(path *p, int light, rgb found, double lit) {
     path_control *control = control_of(p, light);
-    double brightness = rgb_brightness(found);
     if (p->known.controls >> light & 1)
         control->difference = rgb_add_scaled(control->difference, -1, found);
-    control->whole += brightness;
-    control->lit += lit ? brightness : 0;
+    control->whole += rgb_brightness(found);
+    control->lit += lit;
 }
 
 /* Whether a light shines on all points alike: its role does not depend on its distance. */
@@ -49,7 +48,7 @@ static geometry_visibility visibility(const graze_scene *scene, const vertex *v,
 /* What is known of a light, and kept for the other paths if this is their first point, too. */
 static path_memory_light look_at(const path *p, const vertex *v, int index, bool glossy) {
     const graze_scene *scene = p->context->scene;
-    path_memory_light *kept = p->depth == 0 ? &p->context->memory->lights[index] : NULL;
+    path_memory_light *kept = path_is_at_first(p) ? &p->context->memory->lights[index] : NULL;
     if (kept && kept->kept)
         return *kept;
     bool whole = !v->function && (!v->leans || light_choice_is_above(scene, index, v->point, v->normal));
@@ -90,7 +89,7 @@ static void watch(path *p, int light) {
 
 void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
-    p->known = (known_lights){.shared = p->depth > 0};
+    p->known = (known_lights){.shared = !path_is_at_first(p)};
     if (!light_choice_is_every_one(lights) || p->scattered || p->context->settings->samples == 1)
         return;
     for (int i = 0; i < (int)scene->light_count; i++) {
@@ -138,7 +137,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
     } else if (p->depth > 0) {
         return false; /* not worth the question */
     }
-    return !geometry_reflects_above(scene->geometry, v->point, v->normal, v->surface);
+    return !v->shading.transmits && !geometry_reflects_above(scene->geometry, v->point, v->normal, v->surface);
 }
 
 void known_light_subtract_reflected(path *p, const vertex *from, const path_hit *hit, rgb found) {
@@ -147,7 +146,7 @@ void known_light_subtract_reflected(path *p, const vertex *from, const path_hit 
         if (!known_light_is_control(p, i))
             continue;
         if (hit->light == i && !hit->passed) {
-            known_light_subtract(p, i, found, true);
+            known_light_subtract(p, i, found, rgb_brightness(found));
             continue;
         }
         const scene_light *light = &scene->lights[i];
@@ -160,6 +159,6 @@ void known_light_subtract_reflected(path *p, const vertex *from, const path_hit 
         } else if (light_source_towards(scene, hit->direction) != i) {
             continue;
         }
-        known_light_subtract(p, i, emission_found(p, &whole), false);
+        known_light_subtract(p, i, emission_found(p, &whole), 0);
     }
 }

@@ -16,8 +16,8 @@ bool known_light_is_all(const path *, const vertex *, const light_choice *);
 /* Adds what is known of the lights' light at a vertex, and remembers of which. */
 void known_light_add(path *, const vertex *, const light_choice *);
 
-/* Takes what a sample finds, or would find without shadows, of a light that is known. */
-void known_light_subtract(path *, int light, rgb found, bool lit);
+/* Takes what a sample finds, or would find without shadows, of a light that is known, and how bright it really is. */
+void known_light_subtract(path *, int light, rgb found, double lit);
 
 /* Takes away what the last reflection finds, or would find without shadows, of the known lights. */
 void known_light_subtract_reflected(path *, const vertex *from, const path_hit *, rgb found);

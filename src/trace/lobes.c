@@ -2,6 +2,7 @@
 #include "trace/lobes.h"
 
 #include "base/angle.h"
+#include "trace/mirrored_light.h"
 #include "trace/vertex.h"
 
 /* Beyond this many reflections every path plays roulette, so that a room of perfect mirrors ends. */
@@ -33,17 +34,34 @@ static double survival(const path *p, rgb reflectance) {
     return p->depth >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
+/* How likely a path is let through: as often as one may have to be. One that only looks for lights carries what these
+ * would give. */
+static double passage_chance(const path *p, rgb transmittance) {
+    const graze_trace_settings *s = p->context->settings;
+    rgb carried = p->throughput;
+    if (rgb_is_black(carried))
+        carried = rgb_add(p->last.direct, p->last.indirect);
+    double weight = rgb_max(rgb_multiply(carried, transmittance));
+    double chance = weight < s->minimum_weight ? weight / s->minimum_weight : 1;
+    return p->depth + p->passages >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
+}
+
 /* Whether light is found by a lobe that may not go on, too: where Eq. 16 stands alone, and a gloss where it shares,
- * which light samples might miss. */
+ * which light samples might miss; and what is refracted on its way no light sample finds. */
 static bool finds_lights(const path *p, graze_lobe lobe) {
     const graze_trace_settings *s = p->context->settings;
-    bool shares = s->strategy == GRAZE_STRATEGY_MIS && lobe == GRAZE_LOBE_GLOSSY;
-    return p->context->scene->light_count > 0 && (shares || !context_samples_lights(s));
+    const graze_scene *scene = p->context->scene;
+    bool glossy = lobe == GRAZE_LOBE_GLOSSY || lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
+    bool shares = (s->strategy == GRAZE_STRATEGY_MIS && glossy) || scene->has_refraction;
+    return scene->light_count > 0 && (shares || !context_samples_lights(s));
 }
 
 /* Where lights are sampled, a second or later reflection that carries less than this is followed less often: it adds
  * little to the variance, and the rest of the path costs what it costs. */
 #define WORTH_FOLLOWING 0.1
+
+/* A lobe that matters little still gets a tenth, lest its rare samples carry huge weights. */
+#define LEAST_SHARE 0.1
 
 /* How likely the path takes a lobe. One that may not go on is taken only to find lights. */
 static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
@@ -54,30 +72,70 @@ static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool 
     return *ends && finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : chance;
 }
 
-lobe_choice lobes_choose(const path *p, const vertex *v) {
+/* The chances of what is reflected, each lobe by itself. */
+static inline lobe_choice chances_above(const path *p, const vertex *v) {
     lobe_choice choice = {0};
     rgb matte = v->function ? rgb_add(v->ambient, v->function_color) : v->ambient;
-    double diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, path_bounces_left(p), &choice.diffuse_ends);
-    double specular = 0;
+    choice.diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, path_bounces_left(p), &choice.diffuse_ends);
     if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
-        specular = survival(p, v->shading.specular);
+        choice.specular =
+            rgb_is_black(p->throughput) ? passage_chance(p, v->shading.specular) : survival(p, v->shading.specular);
     else if (v->shading.specular_lobe == GRAZE_LOBE_GLOSSY)
-        specular = lobe_chance(p, GRAZE_LOBE_GLOSSY, v->shading.specular, !v->gloss_is_ambient, &choice.specular_ends);
-    choice.diffuse = diffuse;
-    choice.specular = specular;
+        choice.specular =
+            lobe_chance(p, GRAZE_LOBE_GLOSSY, v->shading.specular, !v->gloss_is_ambient, &choice.specular_ends);
+    return choice;
+}
+
+/* And of what is transmitted. */
+static lobe_choice chances_below(const path *p, const vertex *v) {
+    const graze_surface *s = &v->shading;
+    lobe_choice choice = {0};
+    choice.diffuse = lobe_chance(p, GRAZE_LOBE_TRANSMITTED_DIFFUSE, v->transmitted_ambient, path_bounces_left(p),
+                                 &choice.diffuse_ends);
+    if (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED)
+        choice.specular = passage_chance(p, s->transmitted_specular);
+    else if (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY)
+        choice.specular = lobe_chance(p, GRAZE_LOBE_TRANSMITTED_GLOSSY, s->transmitted_specular,
+                                      !v->transmitted_gloss_is_ambient, &choice.specular_ends);
+    return choice;
+}
+
+lobe_choice lobes_choose(const path *p, const vertex *v) {
+    lobe_choice choice = chances_above(p, v);
+    double diffuse = choice.diffuse, specular = choice.specular;
     if (diffuse == 0 || specular == 0)
         return choice;
     double diffuse_share = diffuse * rgb_brightness(v->ambient);
     double specular_share = specular * rgb_brightness(v->shading.specular);
-    /* A lobe that matters little still gets a tenth, lest its rare samples carry huge weights. */
-    double share = fmin(fmax(diffuse_share / (diffuse_share + specular_share), 0.1), 0.9);
+    double share = fmin(fmax(diffuse_share / (diffuse_share + specular_share), LEAST_SHARE), 1 - LEAST_SHARE);
     choice.diffuse = fmax(diffuse, specular) * share;
     choice.specular = fmax(diffuse, specular) * (1 - share);
     return choice;
 }
 
+/* The chances of all four lobes, each by itself, are divided in proportion to what they lead to. */
+void lobes_choose_both(const path *p, const vertex *v, lobe_choice *above, lobe_choice *below) {
+    const graze_surface *s = &v->shading;
+    double *const chances[] = {&above->diffuse, &above->specular, &below->diffuse, &below->specular};
+    const rgb reflectances[] = {v->ambient, s->specular, v->transmitted_ambient, s->transmitted_specular};
+    double shares[4], sum = 0, most = 0;
+    *above = chances_above(p, v);
+    *below = chances_below(p, v);
+    for (int i = 0; i < 4; i++)
+        sum += *chances[i] * rgb_brightness(reflectances[i]);
+    for (int i = 0; i < 4; i++) {
+        shares[i] = *chances[i] > 0 ? LEAST_SHARE : 0;
+        if (sum > 0)
+            shares[i] = fmax(shares[i], *chances[i] * rgb_brightness(reflectances[i]) / sum);
+        most = fmax(most, *chances[i]);
+    }
+    sum = shares[0] + shares[1] + shares[2] + shares[3];
+    for (int i = 0; i < 4 && sum > 0; i++)
+        *chances[i] = most * (shares[i] / sum);
+}
+
 /* Whether a reflection in this direction may meet lights that no light sample finds: all of them, or those seen in a
- * mirror. */
+ * mirror or by refraction. */
 static bool is_search(const path *p, graze_lobe lobe) {
     return lobe != GRAZE_LOBE_MIRROR &&
            (!context_samples_lights(p->context->settings) || p->context->scene->has_mirrors);
@@ -95,7 +153,8 @@ static graze_surface_sample draw_unweighted(path *p, const graze_surface *s, con
     return sample;
 }
 
-static graze_surface_sample draw_direction(path *p, const graze_surface *s, graze_lobe lobe, const double random[3]) {
+static inline graze_surface_sample draw_direction(path *p, const graze_surface *s, graze_lobe lobe,
+                                                  const double random[3]) {
     if (lobe == GRAZE_LOBE_GLOSSY && p->context->settings->strategy == GRAZE_STRATEGY_UNWEIGHTED)
         return draw_unweighted(p, s, random);
     return graze_surface_sample_lobe(s, lobe, random[0], random[1], random[2]);
@@ -112,48 +171,138 @@ static void draw_numbers(path *p, graze_lobe specular, lobe_choice choice, doubl
         sampler_3d(p->sampler, random);
 }
 
-bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, lobe_choice choice, vec3 *direction) {
-    if (choice.diffuse + choice.specular == 0)
+/* Whether what the path carries is what numbers hold. */
+static bool is_bounded(const path *p) {
+    return rgb_max(p->last.direct) <= LARGEST_THROUGHPUT && rgb_max(p->last.indirect) <= LARGEST_THROUGHPUT;
+}
+
+/* What is known of light on the viewer's side does not matter on the other. */
+static void go_below(path *p, const vertex *v) {
+    p->known.controls = p->known.settled = 0;
+    if (p->context->scene->has_refraction)
+        p->medium = v->beyond;
+}
+
+/* Lets the path go on in a lobe's one direction as if it had not been stopped. */
+static bool carry_on(path *p, const vertex *v, graze_lobe lobe, double chance, vec3 *direction) {
+    graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, 0, 0, 0);
+    if (v->leans && vec3_dot(sample.direction, v->normal) >= 0)
         return false;
-    double random[4] = {0, 0, 0, 0};
-    draw_numbers(p, v->shading.specular_lobe, choice, random);
-    bool diffuse = random[3] < choice.diffuse;
-    if (!diffuse && random[3] >= choice.diffuse + choice.specular)
+    rgb weight = rgb_scale(1 / chance, sample.weight);
+    p->throughput = rgb_multiply(p->throughput, weight);
+    p->last.travelled += v->distance;
+    p->last.passed = true;
+    *direction = sample.direction;
+    if (p->last.lobe == GRAZE_LOBE_NONE)
+        return rgb_max(p->throughput) <= LARGEST_THROUGHPUT;
+    p->last.direct = rgb_multiply(p->last.direct, weight);
+    p->last.indirect = rgb_multiply(p->last.indirect, weight);
+    return is_bounded(p);
+}
+
+/* Lets the path through. What a light sample would have found beyond it may still find, unless it is refracted. */
+static bool pass(path *p, const vertex *v, double chance, vec3 *direction) {
+    p->last.refracted = p->last.refracted || v->refracts;
+    p->passages++;
+    go_below(p, v);
+    return carry_on(p, v, GRAZE_LOBE_TRANSMITTED, chance, direction);
+}
+
+/* Whether lights in the mirror that the path has come to are sampled where it was scattered last. */
+static bool is_image(const path *p, const vertex *v) {
+    return p->context->scene->mirror_count > 0 && mirrored_light_is_in(p->context->scene, v->surface) &&
+           lobe_scatters(p->last.lobe);
+}
+
+/* Light samples find what one mirror shows to the viewer's side of where the path was scattered. */
+static bool reflect_image(path *p, const vertex *v, double chance, vec3 *direction) {
+    bool sampled = p->last.mirror < 0 && p->last.lobe < GRAZE_LOBE_MIRROR;
+    p->last.refracted = p->last.refracted || !sampled;
+    p->last.mirror = (int)v->surface;
+    p->depth++;
+    return carry_on(p, v, GRAZE_LOBE_MIRROR, chance, direction);
+}
+
+/* Goes on with one of the lobes of a side, by random[3], which is below the sum of their chances or means the end.
+ * Where there is nothing but one side the other costs nothing. */
+static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v, const light_choice *lights,
+                                                        const lobe_choice *choice, bool below, const double random[4],
+                                                        vec3 *direction) {
+    bool diffuse = random[3] < choice->diffuse;
+    if (!diffuse && random[3] >= choice->diffuse + choice->specular)
         return false;
-    graze_lobe lobe = diffuse ? GRAZE_LOBE_DIFFUSE : v->shading.specular_lobe;
-    bool ends = diffuse ? choice.diffuse_ends : choice.specular_ends;
-    double scale = 1 / (diffuse ? choice.diffuse : choice.specular);
+    graze_lobe diffuse_lobe = below ? GRAZE_LOBE_TRANSMITTED_DIFFUSE : GRAZE_LOBE_DIFFUSE;
+    graze_lobe specular_lobe = below ? v->shading.transmitted_lobe : v->shading.specular_lobe;
+    graze_lobe lobe = diffuse ? diffuse_lobe : specular_lobe;
+    if (below && lobe == GRAZE_LOBE_TRANSMITTED)
+        return pass(p, v, choice->specular, direction);
+    if (!below && lobe == GRAZE_LOBE_MIRROR && is_image(p, v))
+        return reflect_image(p, v, choice->specular, direction);
+    bool ends = diffuse ? choice->diffuse_ends : choice->specular_ends;
+    double scale = 1 / (diffuse ? choice->diffuse : choice->specular);
     graze_surface_sample sample = draw_direction(p, &v->shading, lobe, random);
     /* The function is found by diffuse samples. */
-    if (v->function && diffuse)
+    if (!below && v->function && diffuse)
         sample.weight = rgb_add_scaled(sample.weight, PI, vertex_function_value(v, sample.direction));
     /* The weight of a diffuse sample is its reflectance: for `light`s that of the diffuse part alone. */
-    rgb onward = ends ? rgb_gray(0) : diffuse ? v->ambient : sample.weight;
+    rgb indirect = !diffuse ? sample.weight : below ? v->transmitted_ambient : v->ambient;
+    rgb onward = ends ? rgb_gray(0) : indirect;
     if (rgb_is_black(sample.weight) && rgb_is_black(onward))
         return false;
-    if (v->leans && vec3_dot(sample.direction, v->normal) <= 0) {
-        /* Into the surface: a mirror reflects by the surface's own normal then, as Radiance's. */
+    if (v->leans && (vec3_dot(sample.direction, v->normal) <= 0) != below) {
+        /* Into the surface, or not into it: a mirror reflects by the surface's own normal then, as Radiance's. */
         if (lobe != GRAZE_LOBE_MIRROR)
             return false;
         sample.direction =
             vec3_add_scaled(vec3_negate(v->shading.view), 2 * vec3_dot(v->shading.view, v->normal), v->normal);
     }
-    bool ambient = diffuse ? path_bounces_left(p) : !v->gloss_is_ambient;
+    bool gloss_is_ambient = below ? v->transmitted_gloss_is_ambient : v->gloss_is_ambient;
+    bool ambient = diffuse ? path_bounces_left(p) : !gloss_is_ambient;
     p->last = (scattering){
         .lobe = lobe,
         .density = sample.density / scale,
         .direct = rgb_scale(scale, rgb_multiply(p->throughput, sample.weight)),
-        .indirect = rgb_scale(scale, rgb_multiply(p->throughput, diffuse ? v->ambient : sample.weight)),
+        .indirect = rgb_scale(scale, rgb_multiply(p->throughput, indirect)),
         .ambient = ambient && (!ends || p->context->settings->back_faces_visible),
         .lights = lights,
+        .vertex = v,
+        .mirror = -1,
+        .bounces_left = p->ambient_limit - p->ambient_depth,
+        .first = !p->scattered,
     };
     p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));
-    if (rgb_max(p->last.direct) > LARGEST_THROUGHPUT || rgb_max(p->last.indirect) > LARGEST_THROUGHPUT)
+    if (!is_bounded(p))
         return false;
+    if (below)
+        go_below(p, v);
     p->depth++;
     p->ambient_depth += diffuse;
     p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;
     p->searching = p->searching || is_search(p, lobe);
     *direction = sample.direction;
     return true;
+}
+
+bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice, vec3 *direction) {
+    if (choice->diffuse + choice->specular == 0)
+        return false;
+    double random[4] = {0, 0, 0, 0};
+    draw_numbers(p, v->shading.specular_lobe, *choice, random);
+    return go_on(p, v, lights, choice, false, random, direction);
+}
+
+bool lobes_go_on(path *p, const gathering *here, const other_side *beyond, vec3 *direction) {
+    const vertex *v = &here->vertex;
+    const lobe_choice *above = &here->lobes, *below = &beyond->lobes;
+    double reflected = above->diffuse + above->specular, transmitted = below->diffuse + below->specular;
+    if (reflected + transmitted == 0)
+        return false;
+    double random[4] = {0, 0, 0, 0};
+    bool only_through = v->shading.transmitted_lobe == GRAZE_LOBE_TRANSMITTED && below->specular >= 1;
+    if (!only_through)
+        sampler_4d(p->sampler, random);
+    if (random[3] < reflected)
+        return go_on(p, v, &here->lights, above, false, random, direction);
+    random[3] -= reflected;
+    return go_on(p, v, &beyond->lights, below, true, random, direction);
 }

@@ -4,10 +4,13 @@
 
 #include "trace/path_state.h"
 
-/* The probabilities with which the path goes on with each lobe. */
+/* The probabilities with which the path goes on with each lobe; and those of both sides of a surface that transmits. */
 lobe_choice lobes_choose(const path *, const vertex *);
+void lobes_choose_both(const path *, const vertex *, lobe_choice *above, lobe_choice *below);
 
-/* Draws the lobe to go on with and turns the path into it. False: the path ends here. */
-bool lobes_reflect(path *, const vertex *, const light_choice *, lobe_choice, vec3 *direction);
+/* Draws the lobe to go on with, of those of the viewer's side or of both, and turns the path into it. False: the path
+ * ends here. */
+bool lobes_reflect(path *, const vertex *, const light_choice *, const lobe_choice *, vec3 *direction);
+bool lobes_go_on(path *, const gathering *, const other_side *, vec3 *direction);
 
 #endif

@@ -9,8 +9,8 @@ static void tell(const path *p, const path_event *event) {
 
 void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contribution) {
     path_event event = {.kind = PATH_RAY,
-                        .depth = p->depth,
-                        .mirrored = p->last.lobe == GRAZE_LOBE_MIRROR,
+                        .depth = p->depth + p->passages,
+                        .mirrored = p->last.lobe == GRAZE_LOBE_MIRROR && !p->last.passed,
                         .origin = origin,
                         .hit = *hit,
                         .coefficient = p->throughput,
@@ -25,7 +25,7 @@ void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contr
 void observe_shadow_ray_told(const path *p, vec3 origin, const light_sample *sample, rgb contribution) {
     const scene_light *light = &p->context->scene->lights[sample->light];
     path_event event = {.kind = PATH_SHADOW,
-                        .depth = p->depth + 1,
+                        .depth = p->depth + p->passages + 1,
                         .origin = origin,
                         .radiance = sample->radiance,
                         .coefficient = rgb_share(contribution, sample->radiance),

@@ -7,17 +7,21 @@
 #include "trace/path.h"
 
 #include "base/angle.h"
+#include "scene/surface.h"
 #include "trace/direct_light.h"
 #include "trace/emission.h"
 #include "trace/irradiance_cache.h"
 #include "trace/known_light.h"
 #include "trace/lobes.h"
+#include "trace/mirrored_light.h"
 #include "trace/observer.h"
+#include "trace/panes.h"
 #include "trace/vertex.h"
 
 /* The ambient value stands for the diffuse light that is not followed. */
 static void add_ambient_value(path *p, const vertex *v) {
-    rgb reflected = rgb_multiply(v->ambient, p->context->settings->ambient_value);
+    rgb ambient = v->shading.transmits ? rgb_add(v->ambient, v->transmitted_ambient) : v->ambient;
+    rgb reflected = rgb_multiply(ambient, p->context->settings->ambient_value);
     rgb found = rgb_multiply(p->throughput, reflected);
     p->radiance = rgb_add(p->radiance, found);
     if (!p->scattered)
@@ -32,7 +36,7 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     bool wanted = context->cache || context->record;
     if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
         context->settings->ambient_bounces < 2 || v->no_ambient || v->gloss_is_ambient || v->shading.fresnel ||
-        v->leans || v->function)
+        v->leans || v->function || v->shading.transmits)
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[IRRADIANCE_PARTS];
@@ -52,17 +56,66 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     return v->shading.specular_lobe == GRAZE_LOBE_NONE;
 }
 
+/* What the way to a hit through a clear body leaves of the light; and of which body. */
+static void attenuate(path *p, const path_hit *hit) {
+    const graze_scene *scene = p->context->scene;
+    if (hit->surface < 0)
+        return;
+    const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    const graze_material *m = &material->reflector;
+    /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
+    if (!material->emits && m->kind == GRAZE_DIELECTRIC && (hit->behind || rgb_min(m->outside) < 1))
+        p->medium = graze_material_attenuation(m, hit->behind, 1);
+    if (rgb_min(p->medium) == 1)
+        return;
+    rgb left = {pow(p->medium.r, hit->distance), pow(p->medium.g, hit->distance), pow(p->medium.b, hit->distance)};
+    p->throughput = rgb_multiply(p->throughput, left);
+    if (p->last.lobe == GRAZE_LOBE_NONE)
+        return;
+    p->last.direct = rgb_multiply(p->last.direct, left);
+    p->last.indirect = rgb_multiply(p->last.indirect, left);
+}
+
+/* The eye is outside of all clear bodies, unless what it sees first is the inside of one. What a probe is put on in the
+ * ray's place is not seen through it. */
+static void begin_in_medium(path *p, const path_hit *first) {
+    p->medium = rgb_gray(1);
+    if (p->context->settings->quantity != GRAZE_IRRADIANCE_HIT)
+        attenuate(p, first);
+}
+
+/* Decides for both sides of a surface that transmits. */
+static void decide_for_both(const path *p, gathering *here, other_side *beyond) {
+    lobes_choose_both(p, &here->vertex, &here->lobes, &beyond->lobes);
+    direct_light_prepare(p, &here->vertex, &here->lights);
+    direct_light_prepare_below(p, &here->vertex, beyond);
+}
+
+/* Light that comes from the other side, of which nothing is known without sampling. */
+static void gather_below(path *p, const vertex *v, const other_side *beyond) {
+    known_lights above = p->known;
+    p->known.controls = p->known.settled = p->known.watched = 0;
+    if (light_choice_is_possible(&beyond->lights) && !p->context->record)
+        direct_light_add_below(p, v, &beyond->lights, &beyond->lobes);
+    p->known = above;
+}
+
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, gathering *here) {
     const path_context *context = p->context;
-    gathering later;
-    for (;; here = &later) {
+    gathering later[2]; /* one of them has seen the lights that the last scattering refers to */
+    other_side others[2];
+    for (;;) {
         vertex *v = &here->vertex;
+        const bool transmits = v->shading.transmits;
+        other_side *beyond = &others[transmits && p->last.lights == &others[0].lights];
         p->ambient_limit = v->no_ambient ? 0 : context->settings->ambient_bounces;
-        bool scattered = p->scattered, decided = here->decided;
+        bool decided = here->decided;
         if (!path_bounces_left(p))
             add_ambient_value(p, v);
-        if (!decided) {
+        if (transmits) {
+            decide_for_both(p, here, beyond);
+        } else if (!decided) {
             here->lobes = lobes_choose(p, v);
             direct_light_prepare(p, v, &here->lights);
         }
@@ -70,25 +123,34 @@ static void follow(path *p, gathering *here) {
         if (light_choice_is_possible(&here->lights) && !context->record) {
             if (!context->observer)
                 known_light_add(p, v, &here->lights);
-            direct_light_add(p, v, &here->lights, here->lobes);
+            direct_light_add(p, v, &here->lights, &here->lobes);
         }
+        if (transmits)
+            gather_below(p, v, beyond);
+        if (context->scene->mirror_count > 0 && !context->record)
+            mirrored_light_add(p, v, &here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
         if (!context->observer && !decided && known_light_is_all(p, v, &here->lights))
             return;
         here->decided = !v->drawn;
         vec3 direction;
-        if (!lobes_reflect(p, v, &here->lights, here->lobes, &direction))
+        bool goes_on = transmits ? lobes_go_on(p, here, beyond, &direction)
+                                 : lobes_reflect(p, v, &here->lights, &here->lobes, &direction);
+        if (!goes_on)
             return;
         path_hit hit = path_cast(context, v->point, direction, GEOMETRY_FAR, v->surface);
+        if (context->scene->has_refraction)
+            attenuate(p, &hit);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         observe_ray(p, v->point, &hit, found);
-        if (!scattered)
+        if (p->last.first)
             p->direct = p->radiance;
         if (p->known.controls | p->known.watched)
             known_light_subtract_reflected(p, v, &hit, found);
-        later.decided = false;
-        if (!vertex_at_hit(p, &hit, &later.vertex) || take_from_cache(p, &hit, &later.vertex))
+        here = p->last.vertex == &later[0].vertex ? &later[1] : &later[0];
+        here->decided = false;
+        if (!vertex_at_hit(p, &hit, &here->vertex) || take_from_cache(p, &hit, &here->vertex))
             return;
         p->length += hit.distance;
     }
@@ -103,9 +165,14 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->length = 0;
     p->throughput = (rgb){1, 1, 1};
     p->radiance = p->ambient_light = p->albedo = (rgb){0, 0, 0};
-    p->ambient_depth = p->depth = 0;
+    p->ambient_depth = p->depth = p->passages = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
+    p->last.lights = NULL;
+    p->last.vertex = NULL;
+    p->last.first = true;
+    p->last.passed = p->last.refracted = false;
+    p->last.travelled = 0;
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = false;
     p->control_count = 0;
@@ -141,12 +208,21 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
     path_start(&p, context, points);
     gathering own, *here = begin_at(context, &own);
     vertex *v = &here->vertex;
+    path_hit beyond;
+    if (context->scene->has_refraction)
+        begin_in_medium(&p, first);
+    if (context->settings->quantity == GRAZE_IRRADIANCE_HIT) {
+        beyond = panes_look_through(context, first);
+        first = &beyond;
+    }
     if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
         p.radiance = emission_found(&p, first);
     if (here->decided || (vertex_at_hit(&p, first, v) && vertex_keep_part(v, context->settings->part))) {
         bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
         p.length = first->distance;
         p.albedo = probe ? rgb_gray(1) : rgb_add(v->shading.diffuse, v->shading.specular);
+        if (!probe && v->shading.transmits)
+            p.albedo = rgb_add(p.albedo, rgb_add(v->shading.transmitted_diffuse, v->shading.transmitted_specular));
         follow(&p, here);
     }
     return path_end(&p);
@@ -157,6 +233,7 @@ static path_sample path_from(const path_context *context, sampler *points, verte
     path p;
     path_start(&p, context, points);
     p.ambient_depth = ambient_depth;
+    p.medium = rgb_gray(1);
     gathering own, *here = begin_at(context, &own);
     here->vertex = v;
     follow(&p, here);

@@ -8,7 +8,8 @@
 #include "trace/path.h"
 #include "trace/sampler.h"
 
-/* The last reflection, as an emitter found next needs it. */
+/* The last reflection, as an emitter found next needs it. What has let the path through since then does not count as
+ * one. */
 typedef struct scattering {
     graze_lobe lobe;            /* NONE: the ray comes from the eye */
     double density;             /* of the direction, per unit solid angle, the choice of the lobe included */
@@ -16,6 +17,13 @@ typedef struct scattering {
     rgb indirect;               /* throughput for LIGHT_AMBIENT, also where the path ends with this reflection */
     bool ambient;               /* LIGHT_AMBIENT counts */
     const light_choice *lights; /* as seen from there */
+    bool first;                 /* the path had only been mirrored before */
+    bool passed;                /* it has been let through since then, */
+    bool refracted;             /* and not straight on: no light sample finds what is found beyond; */
+    double travelled;           /* so far, to where it was */
+    const vertex *vertex;       /* where it was; its lights are the above, unless it transmitted */
+    int mirror;                 /* the flat mirror that has reflected the path since then, or -1 */
+    int bounces_left;           /* there */
 } scattering;
 
 /* What is known of lights at the last vertex without sampling them, a bit for each of the first PATH_FEW_LIGHTS. */
@@ -39,6 +47,8 @@ typedef struct path {
     int ambient_depth; /* diffuse reflections so far */
     int ambient_limit; /* how many there may be at this vertex */
     int depth;         /* all reflections so far */
+    int passages;      /* how often it has been let through, straight on or refracted */
+    rgb medium;        /* transmittance of a unit of length where the path is; set where the scene refracts */
     bool scattered;    /* whether any of them was not a mirror's */
     bool searching;    /* whether one may meet lights that no light sample finds */
     bool cached;       /* whether any came from the irradiance cache */
@@ -48,6 +58,16 @@ typedef struct path {
     path_control controls[PATH_CONTROLS]; /* so many are set: */
     int control_count;
 } path;
+
+/* Whether the path is where all paths of its ray come first. */
+static inline bool path_is_at_first(const path *p) {
+    return p->depth == 0 && p->passages == 0;
+}
+
+/* Whether the direction of a lobe has a density, so that lights in it can be sampled, too. */
+static inline bool lobe_scatters(graze_lobe lobe) {
+    return lobe != GRAZE_LOBE_NONE && lobe != GRAZE_LOBE_MIRROR && lobe != GRAZE_LOBE_TRANSMITTED;
+}
 
 /* Whether another diffuse reflection may follow. */
 static inline bool path_bounces_left(const path *p) {

@@ -5,6 +5,7 @@
 #include "geometry/placed.h"
 #include "scene/surface.h"
 #include "trace/appearance.h"
+#include "trace/mirrored_light.h"
 
 /* Sensors stand this far above the point given, as Radiance's, so that points read off a surface are not inside it. */
 #define SENSOR_HEIGHT 1e-4
@@ -18,12 +19,35 @@ static graze_surface probe(vec3 normal, vec3 view) {
     return surface;
 }
 
+/* What only surfaces have that let light through: apart from what all have, which is faster without it. */
+__attribute__((noinline)) static void find_other_side(const path *p, vertex *v, const graze_material *m) {
+    graze_surface *s = &v->shading;
+    v->refracts = m->kind == GRAZE_DIELECTRIC;
+    if (p->context->scene->has_refraction)
+        v->beyond = v->refracts ? graze_material_attenuation(m, !v->behind, 1) : p->medium;
+    v->transmitted_ambient = s->transmitted_diffuse;
+    v->transmitted_gloss_is_ambient =
+        s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY &&
+        (1 - m->specularity) * m->transmission * m->transmitted_specularity <= p->context->settings->specular_threshold;
+    if (v->transmitted_gloss_is_ambient)
+        v->transmitted_ambient = rgb_add(v->transmitted_ambient, s->transmitted_specular);
+    if (!rgb_is_black(p->throughput))
+        return;
+    /* The path only looks for lights straight on. */
+    s->diffuse = s->specular = s->transmitted_diffuse = v->ambient = v->transmitted_ambient = rgb_gray(0);
+    s->specular_lobe = GRAZE_LOBE_NONE;
+    if (s->transmitted_lobe != GRAZE_LOBE_TRANSMITTED)
+        s->transmitted_lobe = GRAZE_LOBE_NONE;
+}
+
 void vertex_find_ambient(const path *p, vertex *v, const graze_material *m) {
     v->ambient = v->shading.diffuse;
     v->gloss_is_ambient =
         v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && m->specularity <= p->context->settings->specular_threshold;
     if (v->gloss_is_ambient)
         v->ambient = rgb_add(v->ambient, v->shading.specular);
+    if (v->shading.transmits)
+        find_other_side(p, v, m);
 }
 
 rgb vertex_function_value(const vertex *v, vec3 direction) {
@@ -35,13 +59,21 @@ rgb vertex_function_value(const vertex *v, vec3 direction) {
     return rgb_scale(material_reflection_value(v->function, &v->function_point, direction), v->function_color);
 }
 
+/* Whether a path that carries nothing may still find lights behind a surface. */
+static bool looks_through(const path *p, const scene_material *material, int64_t surface) {
+    const graze_scene *scene = p->context->scene;
+    bool clear = scene_surface_passes(scene, surface) || material->reflector.kind == GRAZE_DIELECTRIC ||
+                 mirrored_light_is_in(scene, surface);
+    return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
+}
+
 bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
-    if (hit->surface < 0 || rgb_is_black(p->throughput))
+    if (hit->surface < 0)
         return false;
     const graze_scene *scene = p->context->scene;
     const scene_surface surface = scene_surface_at(scene, hit->surface);
     const scene_material *material = &scene->materials[surface.material];
-    if (material->emits)
+    if (material->emits || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
     v->point = hit->point;
@@ -50,7 +82,9 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     v->no_ambient = surface.no_ambient;
     v->leans = v->drawn = false;
     v->function = NULL;
-    bool irradiance = p->depth == 0 && p->context->settings->quantity == GRAZE_IRRADIANCE_HIT;
+    v->behind = hit->behind;
+    v->distance = hit->distance;
+    bool irradiance = p->context->settings->quantity == GRAZE_IRRADIANCE_HIT && path_is_at_first(p);
     if (!irradiance && !appearance_is_plain(scene, material, hit->surface)) {
         appearance_prepare(p, hit, material, v);
         return true;
@@ -58,7 +92,8 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     if (irradiance)
         v->shading = probe(normal, view);
     else
-        graze_surface_prepare(&v->shading, &material->reflector, normal, view, NULL);
+        graze_surface_prepare(&v->shading, &material->reflector,
+                              material->reflector.kind >= GRAZE_DIELECTRIC ? hit->normal : normal, view, NULL);
     vertex_find_ambient(p, v, &material->reflector);
     return true;
 }
@@ -68,6 +103,7 @@ bool vertex_keep_part(vertex *v, graze_part part) {
     if (part == GRAZE_MIRRORED) {
         v->shading.diffuse = v->ambient = rgb_gray(0);
         v->function = NULL;
+        v->shading.transmits = 0;
     }
     if (part == GRAZE_UNMIRRORED && mirror) {
         v->shading.specular_lobe = GRAZE_LOBE_NONE;

@@ -35,6 +35,9 @@ WALLS = """
 void plastic wall 0 0 5 .6 .6 .6 0 0
 void metal2 shiny 4 1 1 0 . 0 6 .6 .6 .6 .8 .05 .2
 void metal mirror 0 0 5 .9 .9 .9 1 0
+void glass pane 0 0 3 .9 .9 .9
+void trans frosted 0 0 7 .8 .8 .8 .03 .2 .7 .6
+void dielectric solid 0 0 5 .9 .9 .9 1.5 0
 void light lamp 0 0 3 10 10 10
 void glow panel 0 0 4 10 10 10 0
 wall polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0
@@ -56,6 +59,10 @@ PLACES = [(1, 1), (3, 1), (2, 3)]
 
 def spheres(material="shiny"):
     return "".join(f"{material} sphere s{i} 0 0 4 {x} {y} .5 .5\n" for i, (x, y) in enumerate(PLACES))
+
+
+def pane(material):
+    return f"{material} polygon pane 0 0 12 0 0 2 4 0 2 4 4 2 0 4 2\n"
 
 
 def many_lamps(count):
@@ -277,6 +284,9 @@ def cost(b):
         ("8 lights", "eight", many_lamps(8), []),
         ("200 lights", "many", many_lamps(200), []),
         ("two lights, 3 mirrors", "mirrors", TWO_LAMPS + spheres("mirror"), []),
+        ("two lights, a pane of glass below", "pane", TWO_LAMPS + pane("pane"), []),
+        ("two lights, a frosted pane below", "frosted", TWO_LAMPS + pane("frosted"), []),
+        ("two lights, 3 solid glass spheres", "solid", TWO_LAMPS + spheres("solid"), []),
         ("two lights, 3 metal2 spheres", "small", SCENES["small"](), []),
         ("two lights, 100,000 triangles", "mesh", SCENES["mesh"](), []),
         ("a glow", "glow", lamp("panel1", 1, 1, 2, 2, "panel"), []),

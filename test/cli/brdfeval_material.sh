@@ -24,7 +24,7 @@ void brightfunc stripes 2 x . 0 0
 stripes plastic striped 0 0 5 .5 .1 .1 .05 .1
 stripes alias painted red
 void light lamp 0 0 3 1 1 1
-void glass pane 0 0 3 1 1 1
+void mist pane 0 0 0
 red polygon floor 0 0 9 0 0 0 1 0 0 0 1 0
 red polygon twice 0 0 9 0 0 0 1 0 0 0 1 0
 void plastic twice 0 0 5 .5 .1 .1 .05 .1
@@ -111,7 +111,7 @@ refuses "a mirror" "scene.rad:9:1: metal chrome: is a mirror" chrome
 refuses "densities of what is diffuse alone" "reflects nothing specularly: it has no lobe for 'P'" matte -o fwP
 refuses "... samples" "no lobe for 'x'" matte -q sample
 refuses "a lamp" "scene.rad:18:1: light lamp: shines" lamp
-refuses "another type" "scene.rad:19:1: glass pane: glass is not supported yet" pane
+refuses "another type" "scene.rad:19:1: mist pane: mist is not supported yet" pane
 refuses "a pattern" "scene.rad:15:1: brightfunc stripes: modifies plastic striped, which is not supported yet" striped
 refuses "... through an alias" "scene.rad:15:1: brightfunc stripes: modifies plastic painted" painted
 refuses "the pattern itself" "scene.rad:15:1: brightfunc stripes: brightfunc is not supported yet" stripes

@@ -126,8 +126,8 @@ fails "a file for a directory" 1 "Not a directory" "" "$gtrace" room.rad/room.ra
 [ ! -r /proc/self/mem ] || fails "a scene that fails to be read" 2 "Input/output error" "" "$gtrace" /proc/self/mem
 echo "void plastic p 0 0 5 1 1 1 0" >cut.rad
 fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
-printf '#comment\nvoid glass g 0 0 3 1 1 1\ng sphere s 0 0 4 0 0 0 1\n' >glass.rad
-fails "a type not supported" 1 "glass.rad:2:1: glass g" "" "$gtrace" glass.rad
+printf '#comment\nvoid mist g 0 0 0\ng sphere s 0 0 4 0 0 0 1\n' >mist.rad
+fails "a type not supported" 1 "mist.rad:2:1: mist g" "" "$gtrace" mist.rad
 printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
 fails "an undefined modifier" 1 "undefined.rad:1:1" "" "$gtrace" undefined.rad
 printf '#?RADIANCE\noconv room.rad\nFORMAT=Radiance_octree\n\n\001\002' >room.oct

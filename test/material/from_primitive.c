@@ -182,15 +182,67 @@ static void idle_strings_of_isotropic_types_are_warned_of(void **state) {
 
 static void other_materials_are_not_supported_yet(void **state) {
     (void)state;
-    const double glass[] = {0.9, 0.9, 0.9};
-    assert_refused(RAD_GLASS, 0, NULL, 3, glass, "glass is not supported yet");
-    assert_refused(RAD_TRANS2, 4, plain, 6, aniso, "trans2 is not supported yet");
+    assert_refused(RAD_MIST, 0, NULL, 0, NULL, "mist is not supported yet");
+    assert_refused(RAD_BSDF, 4, plain, 0, NULL, "BSDF is not supported yet");
+}
+
+static graze_material accept(rad_type type, uint32_t string_count, uint32_t real_count, const double *reals,
+                             int warnings) {
+    graze_material m;
+    log_of_report log;
+    assert_int_equal(convert(&m, &log, type, string_count, plain, real_count, reals), GRAZE_OK);
+    assert_int_equal(log.errors, 0);
+    assert_int_equal(log.warnings, warnings);
+    return m;
+}
+
+static void transparent_types_are_read(void **state) {
+    (void)state;
+    const double reals[] = {0.1, 0.2, 0.3, 0.04, 0.5, 0.6, 0.7, 0.8};
+    graze_material m = accept(RAD_TRANS, 0, 7, reals, 0);
+    assert_true(m.kind == GRAZE_TRANS && m.color.b == 0.3 && m.specularity == 0.04 && m.roughness_u == 0.5 &&
+                m.roughness_v == 0.5 && m.transmission == 0.6 && m.transmitted_specularity == 0.7);
+    m = accept(RAD_TRANS2, 4, 8, reals, 0);
+    assert_true(m.kind == GRAZE_TRANS && m.roughness_u == 0.5 && m.roughness_v == 0.6 && m.transmission == 0.7 &&
+                m.transmitted_specularity == 0.8 && m.has_orientation && m.orientation.y == -0.5);
+    const double glass[] = {0.9, 1.1, 0.7, 1.4};
+    m = accept(RAD_GLASS, 0, 3, glass, 1);
+    assert_true(m.kind == GRAZE_GLASS && m.color.r == 0.9 && m.color.g == 1 && m.refraction == 1.52);
+    m = accept(RAD_GLASS, 0, 4, glass, 1);
+    assert_true(m.refraction == 1.4);
+    const double dielectric[] = {0.9, 0.8, 0.7, 1.4, -50};
+    m = accept(RAD_DIELECTRIC, 0, 5, dielectric, 0);
+    assert_true(m.kind == GRAZE_DIELECTRIC && fabs(m.refraction - 1.3) < 1e-15 && m.inside.g == 0.8);
+    assert_rgb(m.outside, 1, 1, 1, 0);
+    const double interface[] = {0.9, 0.8, 0.7, 1.5, 0.6, 0.5, 0.4, 1.2};
+    m = accept(RAD_INTERFACE, 0, 8, interface, 0);
+    assert_true(m.kind == GRAZE_DIELECTRIC && fabs(m.refraction - 1.25) < 1e-15 && m.inside.r == 0.9 &&
+                m.outside.b == 0.4);
+}
+
+static void wrong_transparent_types_are_refused(void **state) {
+    (void)state;
+    const double thin[] = {0.9, 0.9, 0.9, 0.99}, negative[] = {0.9, -0.1, 0.9, 1.5, 0, 1, 1, 1.5};
+    const double opaque[] = {0.9, 0.9, 0.9, 1e-3, 0, 0.9, 0.9, 1.5}, much[] = {0.1, 0.1, 0.1, 0, 0.1, 1.1, 1, 0.5};
+    const double specular[] = {0.1, 0.1, 0.1, 0, 0.1, 0.2, 0.5, 1.5}, rough[] = {0.1, 0.1, 0.1, 0, 0.1, 11, 1, 0.5};
+    assert_refused(RAD_GLASS, 0, NULL, 4, thin, "index of refraction must be in 1 .. 100");
+    assert_refused(RAD_GLASS, 0, NULL, 3, negative, "argument 2 is negative");
+    assert_refused(RAD_GLASS, 0, NULL, 2, thin, "needs 3 real arguments");
+    assert_refused(RAD_DIELECTRIC, 0, NULL, 5, negative, "argument 2 is negative");
+    assert_refused(RAD_DIELECTRIC, 0, NULL, 5, opaque, "index of refraction must be in 0.01 .. 100");
+    assert_refused(RAD_DIELECTRIC, 0, NULL, 4, opaque, "needs 5 real arguments");
+    assert_refused(RAD_INTERFACE, 0, NULL, 8, opaque, "index of refraction must be in 0.01 .. 100");
+    assert_refused(RAD_INTERFACE, 0, NULL, 7, opaque, "needs 8 real arguments");
+    assert_refused(RAD_TRANS, 0, NULL, 7, much, "must be in 0 .. 1");
+    assert_refused(RAD_TRANS, 0, NULL, 8, specular, "needs 7 real arguments");
+    assert_refused(RAD_TRANS2, 4, plain, 8, specular, "must be in 0 .. 1");
+    assert_refused(RAD_TRANS2, 4, plain, 8, rough, "roughness 11 is above 10");
 }
 
 static void a_missing_report_changes_nothing(void **state) {
     (void)state;
     graze_material m;
-    rad_primitive p = {.type = RAD_GLASS, .modifier = RAD_VOID, .id = "skin", .where = &where};
+    rad_primitive p = {.type = RAD_MIST, .modifier = RAD_VOID, .id = "skin", .where = &where};
     assert_int_equal(material_from_primitive(&m, &p, NULL), GRAZE_INPUT_ERROR);
 }
 
@@ -206,6 +258,8 @@ int main(void) {
         cmocka_unit_test(roughness_out_of_its_range_is_refused),
         cmocka_unit_test(unphysical_values_are_taken_with_a_warning),
         cmocka_unit_test(idle_strings_of_isotropic_types_are_warned_of),
+        cmocka_unit_test(transparent_types_are_read),
+        cmocka_unit_test(wrong_transparent_types_are_refused),
         cmocka_unit_test(other_materials_are_not_supported_yet),
         cmocka_unit_test(a_missing_report_changes_nothing),
     };

@@ -329,6 +329,29 @@ def cases():
     # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
     yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
                samples=8192)
+
+    # Surfaces that light goes through. Radiance adds a light's size to the width of lobes, so the lamps are small.
+    clear = np.random.default_rng(20100403)
+    under = sensors([-2.5, -2.5, 0], [2.5, 2.5, 0], 100, up, clear)
+    yield Case("floor lit through panes, irradiance", "panes", under, "-I -ab 0", repeat=256)
+    yield Case("panes seen from above", "panes", aim([-.5, -3.5, 2.6], grid([-2.5, -2.5, 0], [2.5, 2.5, 0], 100, clear)), "-ab 0",
+               repeat=256, samples=16384)
+    yield Case("floor under a glass roof, irradiance", "greenhouse", under, "-I -ab 1", "-ad 1024", repeat=64, samples=16384)
+    yield Case("glass roof from below", "greenhouse", aim([0, -1, .3], grid([-1.8, -1.8, 1.1], [1.8, 1.8, 1.1], 49, clear)), "-ab 1",
+               "-ad 1024", repeat=64, samples=16384)
+    yield Case("irradiance where rays hit, behind panes", "panes",
+               aim([-.5, -3.5, 2.6], grid([-2.5, -2.5, 0], [-.2, 2.5, 0], 36, clear)), "-i -ab 0", repeat=64)
+    sheets = grid([-.95, 0, .1], [1.95, 0, 1.9], 144, clear)
+    yield Case("sheets before lamps", "frosted", aim([.4, -2, 1.4], sheets), "-ab 0", "-ds .001 -ss 64", repeat=256, samples=8192)
+    yield Case("sheets before a glow", "frosted_glow", aim([.5, -8, 1], sheets), "-ab 1", "-ss 64 -ad 1024", repeat=64, samples=16384)
+    yield Case("highlights of ashik2", "ashik", aim([.4, -2, 2], grid([-1.5, -.8, 0], [3.5, 2.8, 0], 144, clear)), "-ab 0", "-ds .001",
+               repeat=256, samples=8192)
+    yield Case("floor lit by a mirror, irradiance", "images", under, "-I -ab 0", "-dr 1 -dp 0", repeat=512, samples=16384)
+    yield Case("mirror and what it lights", "images", aim([.3, -3.5, 2], grid([-2, 2, 0], [2, 2, 2.5], 64, clear)), "-ab 0",
+               "-dr 1 -dp 0", repeat=256, samples=16384)
+    yield Case("glass ball, drop and bead", "clear", aim([.2, -4, 1.5], grid([-1.8, 0, -.9], [1.9, 0, .9], 144, clear)), "-ab 0",
+               repeat=4, samples=32768)
+
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]

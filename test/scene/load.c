@@ -18,8 +18,8 @@ static void assert_refused(const char *text, const char *place_and_name, const c
 
 static void unsupported_types_are_refused_by_name(void **state) {
     (void)state;
-    assert_refused("\nvoid glass pane 0 0 3 1 1 1\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: glass pane", "not supported");
-    assert_refused("void dielectric d 0 0 5 1 1 1 1.5 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: dielectric d",
+    assert_refused("\nvoid mist pane 0 0 0\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: mist pane", "not supported");
+    assert_refused("void BSDF d 6 0 a.xml 0 0 1 . 0 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: BSDF d",
                    "not supported");
     assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
@@ -45,8 +45,8 @@ static void lights_are_checked(void **state) {
 static void all_mistakes_are_told_at_once(void **state) {
     (void)state;
     const char *text =
-        "void glass a 0 0 3 1 1 1 a sphere s 0 0 4 0 0 0 1\nvoid mirror b 0 0 3 1 1 1 b sphere t 0 0 4 0 0 0 1\n";
-    assert_refused(text, "glass a", "mirror b");
+        "void mist a 0 0 0 a sphere s 0 0 4 0 0 0 1\nvoid BSDF b 6 0 a.xml 0 0 1 . 0 0 b sphere t 0 0 4 0 0 0 1\n";
+    assert_refused(text, "mist a", "BSDF b");
 }
 
 static void unused_modifiers_do_no_harm(void **state) {

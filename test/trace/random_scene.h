@@ -41,7 +41,8 @@ typedef struct random_scene {
     graze_ray rays[RANDOM_RAYS];
     placement placement;
     dice dice;
-    bool open; /* a floor and lights around, or a closed room */
+    bool open;  /* a floor and lights around, or a closed room */
+    bool clear; /* light goes through some of its surfaces */
     int shape_count;
     vec3 targets[64]; /* places that rays aim at */
     int target_count;
@@ -203,7 +204,46 @@ static inline double roll_roughness(random_scene *s) {
                                            : roll_size(&s->dice, 0.05, 1);
 }
 
+/* Glass, trans of all kinds, mirrors, and what is none of these but new, too. What dielectrics do only luck finds. */
+static inline void add_clear_material(random_scene *s, int number) {
+    static const struct {
+        const char *type;
+        int reals;
+        bool oriented;
+    } types[] = {{"glass", 3, false}, {"trans", 7, false},  {"trans", 7, false},
+                 {"trans2", 8, true}, {"mirror", 3, false}, {"ashik2", 8, true}};
+    int type = roll_below(&s->dice, s->kind == RANDOM_SMALL_LIGHT ? 4 : 6);
+    print_scene(s, "void %s m%d", types[type].type, number);
+    if (types[type].oriented) {
+        print_scene(s, " 4");
+        print_vector(s, place_vector(&s->placement, roll_direction(&s->dice)));
+        print_scene(s, " . 0 %d", types[type].reals);
+    } else {
+        print_scene(s, " 0 0 %d", types[type].reals);
+    }
+    for (int i = 0; i < 3; i++)
+        print_scene(s, " %.17g", roll_between(&s->dice, 0.3, type == 5 ? 0.5 : 0.95));
+    if (type == 5) {
+        for (int i = 0; i < 3; i++)
+            print_scene(s, " %.17g", roll_between(&s->dice, 0.1, 0.5));
+        for (int i = 0; i < 2; i++) {
+            double roughness = roll_roughness(s);
+            print_scene(s, " %.17g", fmin(2 / (roughness * roughness), 1e6));
+        }
+    } else if (types[type].reals > 3) {
+        print_scene(s, " %.17g %.17g", roll_between(&s->dice, 0, 0.2), type == 1 ? 0 : roll_roughness(s));
+        if (type == 3)
+            print_scene(s, " %.17g", roll_roughness(s));
+        print_scene(s, " %.17g %.17g", roll(&s->dice), roll(&s->dice));
+    }
+    print_scene(s, "\n");
+}
+
 static inline void add_material(random_scene *s, int number) {
+    if (number > 0 && s->clear && roll(&s->dice) < 0.5) {
+        add_clear_material(s, number);
+        return;
+    }
     static const char *const types[] = {"plastic", "metal", "plastic2", "metal2"};
     int type = roll_below(&s->dice, 4);
     bool mirror = type < 2 && s->kind != RANDOM_SMALL_LIGHT && roll(&s->dice) < 0.15;
@@ -365,6 +405,7 @@ static inline void random_scene_make(random_scene *s, uint64_t number, placement
         (void)roll(&s->dice);
     s->kind = (random_kind)(number % RANDOM_KINDS);
     roll_settings(s);
+    s->clear = number % 7 < 2;
     for (int i = 0; i < RANDOM_MATERIALS; i++)
         add_material(s, i);
     bool open = s->open = roll(&s->dice) < 0.4;

@@ -81,6 +81,10 @@ static graze_status take_material(reflectance *r, graze_material material, const
         material.orientation = vec3_make(1, 0, 0);
     material.model = r->lobe.model;
     graze_surface_prepare(&surface, &material, normal, normal, &illegal);
+    if (material.kind == GRAZE_ASHIKHMIN)
+        return rad_primitive_error(report, p, "has a lobe of its own, which is none of the models that -m names");
+    if (surface.transmits)
+        return rad_primitive_error(report, p, "lets light through; only what is reflected can be evaluated");
     if (surface.specular_lobe == GRAZE_LOBE_MIRROR)
         return rad_primitive_error(report, p, "is a mirror: with a roughness this small it has no value to evaluate");
     if (illegal)

@@ -1,0 +1,163 @@
+/* A light in a mirror is where its image is: it is sampled as the light itself from the vertex's own image. */
+#include "trace/mirrored_light.h"
+
+#include "geometry/crossing.h"
+#include "trace/direct_light.h"
+#include "trace/observer.h"
+#include "trace/panes.h"
+#include "trace/vertex.h"
+
+/* Of more mirrors that show a vertex, one is chosen. */
+#define EVERY_MIRROR 4
+
+/* A plane with its front on the side of the unit normal. */
+typedef struct plane {
+    vec3 normal, point;
+} plane;
+
+static plane plane_of(const shape *s) {
+    return s->kind == SHAPE_POLYGON ? (plane){s->polygon.normal, s->polygon.center}
+                                    : (plane){s->ring.normal, s->ring.center};
+}
+
+static double height_over(const plane *p, vec3 point) {
+    return vec3_dot(p->normal, vec3_subtract(point, p->point));
+}
+
+static vec3 mirror_direction(const plane *p, vec3 direction) {
+    return vec3_add_scaled(direction, -2 * vec3_dot(p->normal, direction), p->normal);
+}
+
+static vec3 mirror_point(const plane *p, vec3 point) {
+    return vec3_add_scaled(point, -2 * height_over(p, point), p->normal);
+}
+
+/* Whether the mirror shows the vertex: it has its front there, and is not all below the horizon as far as its plane
+ * tells. */
+static bool shows(const graze_scene *scene, int mirror, const vertex *v) {
+    const plane p = plane_of(&scene->shapes[mirror]);
+    return mirror != v->surface && height_over(&p, v->point) > 0;
+}
+
+static int count_shown(const graze_scene *scene, const vertex *v) {
+    int count = 0;
+    for (size_t i = 0; i < scene->mirror_count; i++)
+        count += shows(scene, scene->mirrors[i], v);
+    return count;
+}
+
+/* How often each of so many is sampled on the average. */
+static double share_of(int count) {
+    return count <= EVERY_MIRROR ? 1 : 1.0 / count;
+}
+
+/* The lights as the vertex's image sees them. */
+typedef struct image {
+    graze_surface surface;
+    light_choice lights;
+} image;
+
+static void prepare_image(const path *p, const vertex *v, const plane *mirror, int ambient_limit, image *made) {
+    const graze_scene *scene = p->context->scene;
+    graze_surface *s = &made->surface;
+    bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
+    bool glows = context_samples_glows(p->context->settings);
+    *s = v->shading;
+    s->x = mirror_direction(mirror, s->x);
+    s->y = mirror_direction(mirror, s->y);
+    s->n = mirror_direction(mirror, s->n);
+    light_receiver receiver = {
+        .point = mirror_point(mirror, v->point), .surface = s, .diffuse = v->shading.diffuse, .draws = 1};
+    if (v->function)
+        receiver.diffuse = rgb_add(receiver.diffuse, v->function_color);
+    if (glossy)
+        receiver.glossy = v->shading.specular;
+    if (glows && ambient_limit > 0)
+        receiver.ambient_diffuse = v->ambient;
+    if (glows && glossy && !v->gloss_is_ambient)
+        receiver.ambient_glossy = v->shading.specular;
+    light_choice_prepare(&made->lights, scene, &receiver);
+}
+
+/* What is left of the light on both parts of its way. */
+static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror, const light_sample *sample,
+                    vec3 onward) {
+    const graze_scene *scene = p->context->scene;
+    geometry_ray first = {.origin = v->point, .direction = sample->direction, .far = to_mirror, .from = v->surface};
+    vec3 at = shape_pull(&scene->shapes[mirror], vec3_add_scaled(v->point, to_mirror, sample->direction));
+    double left = sample->distance < GEOMETRY_FAR ? sample->distance - to_mirror : GEOMETRY_FAR;
+    geometry_ray second = {.origin = at, .direction = onward, .far = left, .from = mirror};
+    rgb before = panes_transmittance(p->context, &first, p->length, mirror);
+    if (!(left > 0) || rgb_is_black(before))
+        return rgb_gray(0);
+    rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface);
+    return rgb_multiply(before, behind);
+}
+
+static void add_from(path *p, const vertex *v, int mirror, double expectation, const double random[3],
+                     const lobe_choice *choice) {
+    const graze_scene *scene = p->context->scene;
+    const shape *s = &scene->shapes[mirror];
+    const plane flat = plane_of(s);
+    image seen;
+    prepare_image(p, v, &flat, p->ambient_limit - p->ambient_depth, &seen);
+    if (!light_choice_is_possible(&seen.lights))
+        return;
+    double chance, to_mirror;
+    int light = light_choose(&seen.lights, random[0], &chance);
+    if (light < 0)
+        return;
+    light_sample sample = light_draw(scene, seen.lights.receiver.point, p->length, light, random + 1);
+    if (sample.light < 0 || rgb_is_black(sample.radiance))
+        return;
+    vec3 onward = sample.direction;
+    sample.direction = mirror_direction(&flat, onward);
+    double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * chance * sample.density;
+    if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0) ||
+        !shape_front_crossing(s, v->point, sample.direction, &to_mirror) || to_mirror >= sample.distance)
+        return;
+    rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, choice), sample.radiance);
+    if (rgb_is_black(reflected))
+        return;
+    rgb color = scene->materials[scene->surfaces[mirror].material].reflector.color;
+    rgb found = rgb_multiply(rgb_multiply(arriving(p, v, mirror, to_mirror, &sample, onward), color), reflected);
+    found = rgb_scale(cosine / density, rgb_multiply(p->throughput, found));
+    p->radiance = rgb_add(p->radiance, found);
+    if (!rgb_is_black(found))
+        observe_shadow_ray(p, v->point, &sample, found);
+}
+
+void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
+    const graze_scene *scene = p->context->scene;
+    bool dull = v->shading.specular_lobe != GRAZE_LOBE_GLOSSY && rgb_is_black(v->ambient) && !v->function;
+    int count = dull || !context_samples_lights(p->context->settings) ? 0 : count_shown(scene, v);
+    double random[3];
+    if (count == 0)
+        return;
+    int chosen = -1;
+    if (count > EVERY_MIRROR) {
+        sampler_2d(p->sampler, random);
+        chosen = (int)(random[0] * count);
+    }
+    for (size_t i = 0, number = 0; i < scene->mirror_count; i++) {
+        if (!shows(scene, scene->mirrors[i], v) || (chosen >= 0 && (int)number++ != chosen))
+            continue;
+        sampler_3d(p->sampler, random);
+        add_from(p, v, scene->mirrors[i], share_of(count), random, choice);
+    }
+}
+
+double mirrored_light_density(const path *p, const path_hit *hit) {
+    const graze_scene *scene = p->context->scene;
+    const scattering *last = &p->last;
+    const plane mirror = plane_of(&scene->shapes[last->mirror]);
+    image seen;
+    if (!shows(scene, last->mirror, last->vertex))
+        return 0;
+    prepare_image(p, last->vertex, &mirror, last->bounces_left, &seen);
+    double expectation = share_of(count_shown(scene, last->vertex)) * light_expectation(&seen.lights, hit->light);
+    if (expectation == 0)
+        return 0;
+    return expectation *
+           light_density(scene, seen.lights.receiver.point, hit->light, hit->direction, hit->point, hit->normal);
+}

@@ -1,0 +1,64 @@
+/* Rays that pass straight through surfaces: shadow rays, and the eye's where clear bodies are not there for it. */
+#include "trace/panes.h"
+
+#include "scene/surface.h"
+#include "trace/appearance.h"
+
+/* What a surface that light passes lets through of the ray that meets it. One that is not there lets all. */
+static rgb pane_transmittance(const path_context *context, const geometry_hit *hit, vec3 direction, double length,
+                              double travelled) {
+    const graze_scene *scene = context->scene;
+    double slope = vec3_dot(hit->normal, direction);
+    if (slope > 0 && !context->settings->back_faces_visible)
+        return rgb_gray(1);
+    const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    if (appearance_is_plain(scene, material, hit->surface))
+        return graze_material_straight_through(&material->reflector, fabs(slope));
+    const path_hit at = {.surface = hit->surface,
+                         .light = -1,
+                         .distance = travelled + hit->distance,
+                         .point = hit->point,
+                         .normal = hit->normal,
+                         .direction = direction,
+                         .behind = slope > 0};
+    return appearance_straight_through(scene, material, &at, length);
+}
+
+rgb panes_transmittance(const path_context *context, const geometry_ray *ray, double length, int64_t target) {
+    const graze_scene *scene = context->scene;
+    geometry_ray left = *ray;
+    geometry_hit hit;
+    bool panes;
+    if (geometry_occluded_but_for_panes(scene->geometry, ray, target, &panes))
+        return rgb_gray(0);
+    rgb transmittance = {1, 1, 1};
+    double travelled = 0;
+    while (panes && !rgb_is_black(transmittance) && geometry_intersect(scene->geometry, &left, &hit) &&
+           scene_surface_passes(scene, hit.surface)) {
+        transmittance =
+            rgb_multiply(transmittance, pane_transmittance(context, &hit, ray->direction, length, travelled));
+        travelled += hit.distance;
+        left.origin = hit.point;
+        left.far -= hit.distance;
+        left.from = hit.surface;
+    }
+    return transmittance;
+}
+
+static bool is_clear(const graze_scene *scene, const path_hit *hit) {
+    if (hit->surface < 0)
+        return false;
+    const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    graze_material_kind kind = material->reflector.kind;
+    return !material->emits && (kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC);
+}
+
+path_hit panes_look_through(const path_context *context, const path_hit *first) {
+    path_hit hit = *first;
+    while (is_clear(context->scene, &hit)) {
+        path_hit next = path_cast(context, hit.point, hit.direction, GEOMETRY_FAR, hit.surface);
+        next.distance = next.distance < GEOMETRY_FAR ? hit.distance + next.distance : GEOMETRY_FAR;
+        hit = next;
+    }
+    return hit;
+}

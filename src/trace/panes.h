@@ -1,0 +1,15 @@
+/* What light goes straight through on its way. */
+#ifndef TRACE_PANES_H
+#define TRACE_PANES_H
+
+#include "trace/hit.h"
+
+/* What is left of light between a point, `length` from the eye, and another one, `far` from it in the ray's direction,
+ * or on the surface `target` there: black where something is between that it does not pass. */
+rgb panes_transmittance(const path_context *, const geometry_ray *, double length, int64_t target);
+
+/* What a probe for irradiance in the ray's place (-i) would be put on: the first surface that is not glass or a
+ * dielectric, straight on. */
+path_hit panes_look_through(const path_context *, const path_hit *first);
+
+#endif
