@@ -191,7 +191,6 @@ static bool carry_on(path *p, const vertex *v, graze_lobe lobe, double chance, v
     rgb weight = rgb_scale(1 / chance, sample.weight);
     p->throughput = rgb_multiply(p->throughput, weight);
     p->last.travelled += v->distance;
-    p->last.passed = true;
     *direction = sample.direction;
     if (p->last.lobe == GRAZE_LOBE_NONE)
         return rgb_max(p->throughput) <= LARGEST_THROUGHPUT;
@@ -267,7 +266,6 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
         .lights = lights,
         .vertex = v,
         .mirror = -1,
-        .bounces_left = p->ambient_limit - p->ambient_depth,
         .first = !p->scattered,
     };
     p->throughput = rgb_scale(scale, rgb_multiply(p->throughput, onward));

@@ -57,7 +57,7 @@ typedef struct image {
     light_choice lights;
 } image;
 
-static void prepare_image(const path *p, const vertex *v, const plane *mirror, int ambient_limit, image *made) {
+static void prepare_image(const path *p, const vertex *v, const plane *mirror, int bounced, image *made) {
     const graze_scene *scene = p->context->scene;
     graze_surface *s = &made->surface;
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
@@ -72,7 +72,7 @@ static void prepare_image(const path *p, const vertex *v, const plane *mirror, i
         receiver.diffuse = rgb_add(receiver.diffuse, v->function_color);
     if (glossy)
         receiver.glossy = v->shading.specular;
-    if (glows && ambient_limit > 0)
+    if (glows && !v->no_ambient && bounced < p->context->settings->ambient_bounces)
         receiver.ambient_diffuse = v->ambient;
     if (glows && glossy && !v->gloss_is_ambient)
         receiver.ambient_glossy = v->shading.specular;
@@ -100,7 +100,7 @@ static void add_from(path *p, const vertex *v, int mirror, double expectation, c
     const shape *s = &scene->shapes[mirror];
     const plane flat = plane_of(s);
     image seen;
-    prepare_image(p, v, &flat, p->ambient_limit - p->ambient_depth, &seen);
+    prepare_image(p, v, &flat, p->ambient_depth, &seen);
     if (!light_choice_is_possible(&seen.lights))
         return;
     double chance, to_mirror;
@@ -151,10 +151,11 @@ double mirrored_light_density(const path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
     const scattering *last = &p->last;
     const plane mirror = plane_of(&scene->shapes[last->mirror]);
+    int bounced = p->ambient_depth - (last->lobe == GRAZE_LOBE_DIFFUSE);
     image seen;
     if (!shows(scene, last->mirror, last->vertex))
         return 0;
-    prepare_image(p, last->vertex, &mirror, last->bounces_left, &seen);
+    prepare_image(p, last->vertex, &mirror, bounced, &seen);
     double expectation = share_of(count_shown(scene, last->vertex)) * light_expectation(&seen.lights, hit->light);
     if (expectation == 0)
         return 0;

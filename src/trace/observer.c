@@ -10,7 +10,7 @@ static void tell(const path *p, const path_event *event) {
 void observe_ray_told(const path *p, vec3 origin, const path_hit *hit, rgb contribution) {
     path_event event = {.kind = PATH_RAY,
                         .depth = p->depth + p->passages,
-                        .mirrored = p->last.lobe == GRAZE_LOBE_MIRROR && !p->last.passed,
+                        .mirrored = p->last.lobe == GRAZE_LOBE_MIRROR && p->last.travelled == 0,
                         .origin = origin,
                         .hit = *hit,
                         .coefficient = p->throughput,

@@ -171,7 +171,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->last.lights = NULL;
     p->last.vertex = NULL;
     p->last.first = true;
-    p->last.passed = p->last.refracted = false;
+    p->last.refracted = false;
     p->last.travelled = 0;
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = false;

@@ -18,12 +18,10 @@ typedef struct scattering {
     bool ambient;               /* LIGHT_AMBIENT counts */
     const light_choice *lights; /* as seen from there */
     bool first;                 /* the path had only been mirrored before */
-    bool passed;                /* it has been let through since then, */
-    bool refracted;             /* and not straight on: no light sample finds what is found beyond; */
-    double travelled;           /* so far, to where it was */
-    const vertex *vertex;       /* where it was; its lights are the above, unless it transmitted */
+    bool refracted;             /* since then, or mirrored so that no light sample finds what is found beyond */
+    double travelled;           /* from there to where the path was last let through or mirrored; 0: not since then */
+    const vertex *vertex;       /* where that was; its lights are the above, unless it transmitted */
     int mirror;                 /* the flat mirror that has reflected the path since then, or -1 */
-    int bounces_left;           /* there */
 } scattering;
 
 /* What is known of lights at the last vertex without sampling them, a bit for each of the first PATH_FEW_LIGHTS. */
