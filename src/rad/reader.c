@@ -13,13 +13,14 @@
 #include "base/whole_file.h"
 #include "rad/command.h"
 #include "rad/octree.h"
-#include "rad/words.h"
+#include "rad/pieces.h"
+#include "rad/source.h"
 #include "rad/xform.h"
 
 enum { DEPTH_MOST = 64, ERRORS_MOST = 20 };
 
 void rad_reader_begin(rad_reader *reader, arena *memory, const graze_report *report) {
-    *reader = (rad_reader){.memory = memory, .report = report, .last_type = RAD_POLYGON};
+    *reader = (rad_reader){.memory = memory, .report = report, .threads = 1, .last_type = RAD_POLYGON};
 }
 
 void rad_reader_end(rad_reader *reader) {
@@ -50,21 +51,11 @@ rad_shown rad_show(const char *text, size_t length) {
     return shown;
 }
 
-/* One input being read. */
-typedef struct source {
-    rad_reader *reader;
-    rad_words words;
-    const char *name;
-    const rad_context *context;
-    const rad_sink *sink;
-    bool any; /* primitives found */
-} source;
-
-static place place_at(const source *s, int line, int column) {
+static place place_at(const rad_source *s, int line, int column) {
     return (place){s->name, line, column, s->context->parent};
 }
 
-static const place *keep_place(rad_reader *reader, place where) {
+static place *keep_place(rad_reader *reader, place where) {
     place *kept = arena_allocate(reader->memory, sizeof *kept);
     if (kept)
         *kept = where;
@@ -80,7 +71,7 @@ static bool word_is(const rad_word *word, const char *text) {
 /* ---- The words of one primitive ---- */
 
 /* Reads a word that must be there. Whatever is wrong, the rest of the input cannot be understood. */
-static graze_status need_word(source *s, rad_word *word, const place *start, const char *what) {
+static graze_status need_word(rad_source *s, rad_word *word, const place *start, const char *what) {
     rad_word_status outcome = rad_words_next(&s->words, word);
     if (outcome == RAD_WORD)
         return GRAZE_OK;
@@ -103,7 +94,7 @@ static graze_status keep_text(rad_reader *reader, const rad_word *word, const ch
     return *text ? GRAZE_OK : report_out_of_memory(reader->report);
 }
 
-static graze_status read_modifier(source *s, rad_raw *raw) {
+static graze_status read_modifier(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
     graze_status status = need_word(s, &word, raw->where, "modifier");
@@ -116,7 +107,7 @@ static graze_status read_modifier(source *s, rad_raw *raw) {
     return GRAZE_OK;
 }
 
-static graze_status read_type(source *s, rad_raw *raw) {
+static graze_status read_type(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
     graze_status status = need_word(s, &word, raw->where, "type");
@@ -148,7 +139,7 @@ static bool has_control_character(const rad_word *word) {
     return false;
 }
 
-static graze_status read_id(source *s, rad_raw *raw) {
+static graze_status read_id(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
     graze_status status = need_word(s, &word, raw->where, "name");
@@ -173,7 +164,7 @@ static const char *describe(const rad_raw *raw, char text[120]) {
     return text;
 }
 
-static graze_status read_count(source *s, const rad_raw *raw, const char *what, uint32_t *count) {
+static graze_status read_count(rad_source *s, const rad_raw *raw, const char *what, uint32_t *count) {
     char text[120];
     rad_word word;
     graze_status status = need_word(s, &word, raw->where, what);
@@ -190,7 +181,7 @@ static graze_status read_count(source *s, const rad_raw *raw, const char *what, 
     if (!text_to_integer(digits, &value) || value < 0)
         return report_error(s->reader->report, &here, "%s: \"%s\" is not a %s", describe(raw, text), SHOW(&word), what);
     *count = (uint32_t)value;
-    return GRAZE_OK;
+    return *count <= s->arguments_most ? GRAZE_OK : GRAZE_INPUT_ERROR;
 }
 
 /* Grows with what has been read, not with what a count promises. */
@@ -204,7 +195,7 @@ static void *grow(rad_reader *reader, void *array, size_t *capacity, size_t size
     return larger;
 }
 
-static graze_status read_strings(source *s, rad_raw *raw, uint32_t count) {
+static graze_status read_strings(rad_source *s, rad_raw *raw, uint32_t count) {
     rad_reader *reader = s->reader;
     for (uint32_t i = 0; i < count; ++i) {
         rad_word word;
@@ -232,7 +223,7 @@ static graze_status read_strings(source *s, rad_raw *raw, uint32_t count) {
 }
 
 /* Of integers there must be none; a primitive that has some is passed over. */
-static graze_status read_integers(source *s, rad_raw *raw) {
+static graze_status read_integers(rad_source *s, rad_raw *raw) {
     char text[120];
     uint32_t count = 0;
     graze_status status = read_count(s, raw, "number of integer arguments", &count);
@@ -247,7 +238,7 @@ static graze_status read_integers(source *s, rad_raw *raw) {
     return status;
 }
 
-static graze_status read_bad_real(source *s, rad_raw *raw) {
+static graze_status read_bad_real(rad_source *s, rad_raw *raw) {
     char text[120];
     rad_word word;
     graze_status status = need_word(s, &word, raw->where, "last real argument");
@@ -258,7 +249,7 @@ static graze_status read_bad_real(source *s, rad_raw *raw) {
     return rad_reader_complain(s->reader, &here, "%s: \"%s\" is not a number", describe(raw, text), SHOW(&word));
 }
 
-static graze_status read_reals(source *s, rad_raw *raw) {
+static graze_status read_reals(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     uint32_t count = 0;
     graze_status status = read_count(s, raw, "number of real arguments", &count);
@@ -320,7 +311,7 @@ graze_status rad_reader_check(rad_reader *reader, rad_raw *raw) {
     return status || raw->broken ? status : check_reals(reader, raw, facts);
 }
 
-static graze_status read_arguments(source *s, rad_raw *raw) {
+static graze_status read_arguments(rad_source *s, rad_raw *raw) {
     if (raw->type == RAD_ALIAS)
         return read_strings(s, raw, 1);
     uint32_t count = 0;
@@ -334,22 +325,28 @@ static graze_status read_arguments(source *s, rad_raw *raw) {
     return status ? status : rad_reader_check(s->reader, raw);
 }
 
-static graze_status read_primitive(source *s, int line, int column) {
-    rad_raw raw = {.where = keep_place(s->reader, place_at(s, line, column))};
-    if (!raw.where)
+graze_status rad_source_primitive(rad_source *s, int line, int column, rad_raw *raw, place **where) {
+    *where = keep_place(s->reader, place_at(s, line, column));
+    if (!*where)
         return report_out_of_memory(s->reader->report);
+    *raw = (rad_raw){.where = *where};
     s->any = true;
-    graze_status status = read_modifier(s, &raw);
+    graze_status status = read_modifier(s, raw);
     if (!status)
-        status = read_type(s, &raw);
+        status = read_type(s, raw);
     if (!status)
-        status = read_id(s, &raw);
-    if (!status)
-        status = read_arguments(s, &raw);
+        status = read_id(s, raw);
+    return status ? status : read_arguments(s, raw);
+}
+
+static graze_status read_primitive(rad_source *s, int line, int column) {
+    rad_raw raw;
+    place *where;
+    graze_status status = rad_source_primitive(s, line, column, &raw, &where);
     return status ? status : s->sink->take(s->sink->user, &raw);
 }
 
-static graze_status read_command(source *s, int line, int column) {
+static graze_status read_command(rad_source *s, int line, int column) {
     rad_reader *reader = s->reader;
     ++s->words.next;
     rad_word word;
@@ -368,9 +365,27 @@ static graze_status read_command(source *s, int line, int column) {
 
 /* ---- Whole inputs ---- */
 
+graze_status rad_source_read(rad_source *s, const char *until) {
+    for (;;) {
+        int line, column;
+        char first = rad_words_peek(&s->words, &line, &column);
+        if (s->words.next >= until)
+            return GRAZE_OK;
+        graze_status status = GRAZE_OK;
+        if (first == '#')
+            rad_words_skip_line(&s->words);
+        else if (first == '!')
+            status = read_command(s, line, column);
+        else
+            status = read_primitive(s, line, column);
+        if (status)
+            return status;
+    }
+}
+
 static graze_status read_text(rad_reader *reader, const whole_file *text, const char *name, const rad_context *context,
                               const rad_sink *sink) {
-    source s = {.reader = reader, .name = name, .context = context, .sink = sink};
+    rad_source s = {.reader = reader, .name = name, .context = context, .sink = sink, .arguments_most = UINT32_MAX};
     place here = place_at(&s, 0, 0);
     if (context->depth > DEPTH_MOST)
         return report_error(reader->report, &here, "files and commands are nested more than %d deep", DEPTH_MOST);
@@ -379,19 +394,9 @@ static graze_status read_text(rad_reader *reader, const whole_file *text, const 
         return where ? rad_octree_read(reader, text, where, context, sink) : report_out_of_memory(reader->report);
     }
     rad_words_begin(&s.words, text->bytes, text->length);
-    graze_status status = GRAZE_OK;
-    while (!status) {
-        int line, column;
-        char first = rad_words_peek(&s.words, &line, &column);
-        if (!first && s.words.next == s.words.end)
-            break;
-        if (first == '#')
-            rad_words_skip_line(&s.words);
-        else if (first == '!')
-            status = read_command(&s, line, column);
-        else
-            status = read_primitive(&s, line, column);
-    }
+    graze_status status = rad_pieces_are_worth_it(&s) ? rad_pieces_read(&s) : GRAZE_OK;
+    if (!status)
+        status = rad_source_read(&s, s.words.end);
     rad_words_end(&s.words);
     if (!status && !s.any)
         report_warning(reader->report, &here, "no primitives");

@@ -27,6 +27,7 @@ typedef struct rad_sink {
 typedef struct rad_reader {
     arena *memory; /* for all that primitives point to */
     const graze_report *report;
+    int threads;         /* that may read one text */
     graze_status status; /* of the first error that reading went on after */
     int error_count;
     /* Neighbouring primitives mostly share these. */

@@ -20,6 +20,11 @@ static graze_status read_scene(rad_linker *l, const char *name) {
 }
 
 graze_status rad_scene_read(rad_scene **scene, const char *const *names, size_t count, const graze_report *report) {
+    return rad_scene_read_by(1, scene, names, count, report);
+}
+
+graze_status rad_scene_read_by(int threads, rad_scene **scene, const char *const *names, size_t count,
+                               const graze_report *report) {
     *scene = calloc(1, sizeof **scene);
     arena *memory = arena_create();
     if (!*scene || !memory) {
@@ -31,6 +36,7 @@ graze_status rad_scene_read(rad_scene **scene, const char *const *names, size_t 
     (*scene)->memory = memory;
     rad_linker l = {.scene = *scene};
     rad_reader_begin(&l.reader, memory, report);
+    l.reader.threads = threads;
     graze_status status = GRAZE_OK;
     for (size_t i = 0; i < count && !status; ++i)
         status = read_scene(&l, names[i]);

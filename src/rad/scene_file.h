@@ -130,6 +130,8 @@ typedef struct rad_scene rad_scene;
  * for. Undefined modifiers, unknown types, wrong argument counts or malformed numbers, a failing command: errors with
  * their place. All errors of a file that can be told apart are reported, up to 20, before this returns. */
 graze_status rad_scene_read(rad_scene **, const char *const *names, size_t count, const graze_report *);
+/* The same, and large texts by several threads. */
+graze_status rad_scene_read_by(int threads, rad_scene **, const char *const *names, size_t count, const graze_report *);
 /* Reads the octrees and meshes that the scene's instances and meshes name, each once, and those that these name.
  * Octrees in octrees that hold themselves are an error, and so are files that are not there, or damaged. */
 graze_status rad_scene_read_parts(rad_scene *, const graze_report *);

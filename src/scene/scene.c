@@ -378,8 +378,7 @@ static graze_status build_geometry(scene_builder *b) {
         const scene_part *part = &scene->parts[i];
         groups[i] = (geometry_group){part->shapes, part->surface_count, part->placements, part->copy_count};
     }
-    graze_status status =
-        geometry_build(&scene->geometry, groups, count, b->settings->threads > 1 ? b->settings->threads : 1, b->report);
+    graze_status status = geometry_build(&scene->geometry, groups, count, threads_of(b), b->report);
     free(groups);
     if (status == GRAZE_OK && needs_sights(scene))
         status = geometry_prepare_sights(scene->geometry, b->report);
@@ -395,7 +394,7 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         return report_out_of_memory(report);
     scene_builder b = {
         .scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
-    b.status = rad_scene_read(&scene->description, descriptions, count, report);
+    b.status = rad_scene_read_by(threads_of(&b), &scene->description, descriptions, count, report);
     if (b.status == GRAZE_OK) {
         size_t own_count;
         scene->primitives = rad_scene_primitives(scene->description, &own_count);
