@@ -60,6 +60,7 @@ graze_status rad_linker_append(rad_linker *l, const rad_primitive *primitive) {
         scene->capacity = capacity;
     }
     scene->primitives[scene->count++] = *primitive;
+    scene->counts[primitive->type]++;
     return GRAZE_OK;
 }
 

@@ -66,6 +66,10 @@ const rad_primitive *rad_scene_primitives(const rad_scene *scene, size_t *count)
     return scene->primitives;
 }
 
+size_t rad_scene_count(const rad_scene *scene, rad_type type) {
+    return scene->counts[type];
+}
+
 const rad_part *rad_scene_parts(const rad_scene *scene, size_t *count) {
     *count = scene->part_count;
     return scene->parts;

@@ -139,6 +139,8 @@ void rad_scene_destroy(rad_scene *);
 
 /* Of all parts that have been read. */
 const rad_primitive *rad_scene_primitives(const rad_scene *, size_t *count);
+/* How many of a type there are among them. */
+size_t rad_scene_count(const rad_scene *, rad_type);
 /* These are there after rad_scene_read_parts. */
 const rad_part *rad_scene_parts(const rad_scene *, size_t *count);
 const rad_copy *rad_scene_copies(const rad_scene *);
