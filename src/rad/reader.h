@@ -60,6 +60,9 @@ graze_status rad_reader_shell(rad_reader *, const char *command, const rad_conte
 /* Complains of argument counts that are not those of its type. */
 graze_status rad_reader_check(rad_reader *, rad_raw *);
 
+/* For messages; "" before its name is known. */
+rad_primitive_name rad_describe(const rad_raw *);
+
 /* Reports an error that reading may go on after; gives the error's status when there have been too many of them. */
 graze_status rad_reader_complain(rad_reader *, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

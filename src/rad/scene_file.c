@@ -93,6 +93,14 @@ __attribute__((format(printf, 2, 0))) static message compose(const rad_primitive
     return m;
 }
 
+place rad_primitive_place(const rad_primitive *primitive, rad_primitive_name *name) {
+    snprintf(name->text, sizeof name->text, "%s %s", rad_type_name(primitive->type),
+             rad_show(primitive->id, strlen(primitive->id)).text);
+    place where = *primitive->where;
+    where.subject = name->text;
+    return where;
+}
+
 graze_status rad_primitive_error(const graze_report *report, const rad_primitive *primitive, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

@@ -145,9 +145,16 @@ size_t rad_scene_count(const rad_scene *, rad_type);
 const rad_part *rad_scene_parts(const rad_scene *, size_t *count);
 const rad_copy *rad_scene_copies(const rad_scene *);
 
+/* "sphere ball" */
+typedef struct rad_primitive_name {
+    char text[120];
+} rad_primitive_name;
+
 /* Reports an error about a primitive: "FILE:LINE:COLUMN: TYPE ID: TEXT". */
 graze_status rad_primitive_error(const graze_report *, const rad_primitive *, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* Its place, under its name, for messages from where primitives are not known. It is valid as long as *name. */
+place rad_primitive_place(const rad_primitive *, rad_primitive_name *name);
 void rad_primitive_warning(const graze_report *, const rad_primitive *, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
