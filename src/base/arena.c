@@ -37,6 +37,15 @@ void arena_destroy(arena *a) {
     free(a);
 }
 
+void arena_absorb(arena *a, arena *other) {
+    block **last = &other->blocks;
+    while (*last)
+        last = &(*last)->next;
+    *last = a->blocks;
+    a->blocks = other->blocks;
+    free(other);
+}
+
 static void *add_block(arena *a, size_t size) {
     block *b = malloc(sizeof *b + size);
     if (!b)

@@ -71,17 +71,33 @@ static void append_place(text *t, const place *where) {
     }
 }
 
-/* " (from `!gen a`:2:1, from room.rad:3:1)": from the inmost to the file that the user named. */
+/* The next that has a name. */
+static const place *next_parent(const place *where) {
+    const place *p = where->parent;
+    while (p && !p->file)
+        p = p->parent;
+    return p;
+}
+
+/* " (from `!gen a`:2:1, from room.rad:3:1)": from the inmost to the file that the user named. Of many only those at
+ * both ends, for what is nested deep mostly is so by mistake. */
 static void append_parents(text *t, const place *where) {
-    bool any = false;
-    for (const place *p = where->parent; p; p = p->parent) {
-        if (!p->file)
+    enum { FIRST = 4, LAST = 2 };
+    int count = 0, index = 0;
+    for (const place *p = next_parent(where); p; p = next_parent(p))
+        count++;
+    for (const place *p = next_parent(where); p; p = next_parent(p), index++) {
+        int left_out = count - FIRST - LAST;
+        if (left_out > 1 && index == FIRST)
+            text_append(t, ", ... %d more ...", left_out);
+        if (left_out > 1 && index >= FIRST && index < count - LAST)
             continue;
-        text_append(t, any ? ", from " : " (from ");
+        text_append(t, index ? ", from " : " (from ");
+        if (p->subject)
+            text_append(t, "%s at ", p->subject);
         append_place(t, p);
-        any = true;
     }
-    if (any)
+    if (count)
         text_append(t, ")");
 }
 
@@ -96,6 +112,8 @@ __attribute__((format(printf, 5, 0))) static void report_list(const graze_report
         append_place(&t, where);
         text_append(&t, ": ");
     }
+    if (where && where->subject)
+        text_append(&t, "%s: ", where->subject);
     text_append_list(&t, format, arguments);
     if (cause)
         text_append(&t, ": %s", cause);

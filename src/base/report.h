@@ -13,6 +13,7 @@ typedef struct place {
     const char *file;
     int line, column;
     const struct place *parent;
+    const char *subject; /* what stands there, as "sphere ball", for messages that do not name it; or null */
 } place;
 
 /* Each reports one message. `where` may be null. Return the status to hand on, so that

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "geometry/geometry_internal.h"
 
 /* With fewer primitives than this, threads take longer to start than to help, and careful building longer than it
@@ -62,18 +63,48 @@ static box join_copies(const geometry *g, geometry_tree *tree, box all) {
     return all;
 }
 
-static bool find_bounds(const geometry *g, geometry_tree *tree) {
-    tree->reach = malloc((tree->shape_count + 1) * sizeof *tree->reach);
-    tree->placed = malloc((tree->placement_count + 1) * sizeof *tree->placed);
-    if (!tree->reach || !tree->placed)
-        return false;
-    box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (size_t i = 0; i < tree->shape_count; i++) {
+/* What is found out of some neighbouring surfaces at a time. */
+typedef struct block {
+    box bounds;
+    size_t triangles, curved;            /* how many */
+    size_t first_triangle, first_curved; /* where they go among all */
+} block;
+
+enum { BLOCK_SIZE = 2048 };
+
+/* The blocks of a tree, and what threads fill in by them. */
+typedef struct survey {
+    geometry_tree *tree;
+    block *blocks;
+    size_t count;
+    float *vertices; /* Embree's */
+    unsigned *indices;
+} survey;
+
+static size_t block_end(const survey *s, size_t index) {
+    size_t end = (index + 1) * BLOCK_SIZE;
+    return end < s->tree->shape_count ? end : s->tree->shape_count;
+}
+
+static void survey_block(void *user, size_t index, int worker) {
+    (void)worker;
+    const survey *s = user;
+    geometry_tree *tree = s->tree;
+    block found = {.bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
+    for (size_t i = index * BLOCK_SIZE; i < block_end(s, index); i++) {
         box one;
         shape_bounds(&tree->shapes[i], &one.lower, &one.upper);
         tree->reach[i] = box_reach(one);
-        all = box_join(all, one);
+        found.bounds = box_join(found.bounds, one);
+        if (tree->shapes[i].kind == SHAPE_POLYGON)
+            found.triangles += tree->shapes[i].polygon.triangle_count;
+        else
+            found.curved++;
     }
+    s->blocks[index] = found;
+}
+
+static void find_extent(const geometry *g, geometry_tree *tree, box all) {
     all = join_copies(g, tree, all);
     tree->lower = all.lower;
     tree->upper = all.upper;
@@ -85,6 +116,28 @@ static bool find_bounds(const geometry *g, geometry_tree *tree) {
     /* At most sqrt(3) times the half-width that the scale brings below 1/2; a little more takes in roundings. */
     tree->radius =
         (1 + 1e-9) * vec3_length(vec3_scale(tree->scale, half)) / tree->scale + 1e-15 * vec3_max_abs(tree->center);
+}
+
+/* Finds the extent of all, and how many triangles and curved surfaces there are. */
+static bool find_bounds(const geometry *g, survey *s, int threads) {
+    geometry_tree *tree = s->tree;
+    tree->reach = malloc((tree->shape_count + 1) * sizeof *tree->reach);
+    tree->placed = malloc((tree->placement_count + 1) * sizeof *tree->placed);
+    s->count = (tree->shape_count + BLOCK_SIZE - 1) / BLOCK_SIZE;
+    s->blocks = malloc((s->count + 1) * sizeof *s->blocks);
+    if (!tree->reach || !tree->placed || !s->blocks)
+        return false;
+    parallel_for(threads, s->count, survey_block, s);
+    box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < s->count; i++) {
+        block *b = &s->blocks[i];
+        all = box_join(all, b->bounds);
+        b->first_triangle = tree->triangle_count;
+        b->first_curved = tree->curved_count;
+        tree->triangle_count += b->triangles;
+        tree->curved_count += b->curved;
+    }
+    find_extent(g, tree, all);
     return true;
 }
 
@@ -102,31 +155,6 @@ static void collect_polygon(const geometry_tree *tree, int surface, geometry_tri
                                         .index = k,
                                         .shines = s->shines};
     }
-}
-
-static bool collect_surfaces(geometry_tree *tree) {
-    size_t count = tree->shape_count;
-    for (size_t i = 0; i < count; i++) {
-        if (tree->shapes[i].kind == SHAPE_POLYGON)
-            tree->triangle_count += tree->shapes[i].polygon.triangle_count;
-        else
-            tree->curved_count++;
-    }
-    tree->triangles = aligned_alloc(64, (tree->triangle_count + 1) * sizeof *tree->triangles);
-    tree->curved = malloc((tree->curved_count + 1) * sizeof *tree->curved);
-    if (!tree->triangles || !tree->curved)
-        return false;
-    geometry_triangle *triangle = tree->triangles;
-    int *curved = tree->curved;
-    for (size_t i = 0; i < count; i++) {
-        if (tree->shapes[i].kind != SHAPE_POLYGON) {
-            *curved++ = (int)i;
-            continue;
-        }
-        collect_polygon(tree, (int)i, triangle);
-        triangle += tree->shapes[i].polygon.triangle_count;
-    }
-    return true;
 }
 
 static double triangle_border(double height) {
@@ -180,6 +208,26 @@ static void put_triangle(const geometry_tree *tree, geometry_triangle *triangle,
     put_corners(tree, corners, sides, border, out);
 }
 
+static void collect_block(void *user, size_t index, int worker) {
+    (void)worker;
+    const survey *s = user;
+    const geometry_tree *tree = s->tree;
+    size_t triangle = s->blocks[index].first_triangle, curved = s->blocks[index].first_curved;
+    for (size_t i = index * BLOCK_SIZE; i < block_end(s, index); i++) {
+        if (tree->shapes[i].kind != SHAPE_POLYGON) {
+            tree->curved[curved++] = (int)i;
+            continue;
+        }
+        collect_polygon(tree, (int)i, &tree->triangles[triangle]);
+        triangle += tree->shapes[i].polygon.triangle_count;
+    }
+    for (size_t i = s->blocks[index].first_triangle; i < triangle; i++) {
+        put_triangle(tree, &tree->triangles[i], s->vertices + 9 * i);
+        for (size_t k = 3 * i; k < 3 * i + 3; k++)
+            s->indices[k] = (unsigned)k;
+    }
+}
+
 /* Adds the geometry to the scene, which then owns it. */
 static unsigned attach(const geometry_tree *tree, RTCGeometry part, enum RTCBuildQuality quality) {
     rtcSetGeometryBuildQuality(part, quality);
@@ -189,22 +237,26 @@ static unsigned attach(const geometry_tree *tree, RTCGeometry part, enum RTCBuil
     return id;
 }
 
-static bool attach_triangles(geometry_tree *tree, RTCDevice device, enum RTCBuildQuality quality) {
-    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (!mesh)
-        return false;
-    float *vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+/* Lays out the surfaces for Embree. */
+static bool attach_triangles(survey *s, RTCDevice device, enum RTCBuildQuality quality, int threads) {
+    geometry_tree *tree = s->tree;
+    RTCGeometry mesh = NULL;
+    if (tree->triangle_count > 0) {
+        mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        if (!mesh)
+            return false;
+        s->vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                               3 * tree->triangle_count);
-    unsigned *indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-                                                tree->triangle_count);
-    if (!vertices || !indices) {
-        rtcReleaseGeometry(mesh);
-        return false;
+        s->indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+                                             tree->triangle_count);
+        if (!s->vertices || !s->indices) {
+            rtcReleaseGeometry(mesh);
+            return false;
+        }
     }
-    for (size_t i = 0; i < tree->triangle_count; i++)
-        put_triangle(tree, &tree->triangles[i], vertices + 9 * i);
-    for (size_t i = 0; i < 3 * tree->triangle_count; i++)
-        indices[i] = (unsigned)i;
+    parallel_for(threads, s->count, collect_block, s);
+    if (!mesh)
+        return true;
     rtcSetGeometryIntersectFilterFunction(mesh, geometry_filter_intersect);
     rtcSetGeometryOccludedFilterFunction(mesh, geometry_filter_occluded);
     tree->triangles_id = attach(tree, mesh, quality);
@@ -275,7 +327,8 @@ static bool attach_copies(const bounded *of, RTCDevice device, enum RTCBuildQual
 }
 
 /* False where Embree gives nothing, whether it tells of trouble or not. */
-static bool fill_scene(const geometry *g, geometry_tree *tree) {
+static bool fill_scene(const geometry *g, survey *s, int threads) {
+    geometry_tree *tree = s->tree;
     bool large = tree->triangle_count + tree->curved_count + tree->placed_count >= LARGE_SCENE;
     enum RTCBuildQuality quality = large ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
     const bounded of = {g, tree}; /* callbacks come while the scene is committed */
@@ -285,7 +338,7 @@ static bool fill_scene(const geometry *g, geometry_tree *tree) {
     /* A tenth to a quarter slower; without it a ray leaks from a box of triangles now and then. */
     rtcSetSceneFlags(tree->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(tree->scene, quality);
-    if (tree->triangle_count && !attach_triangles(tree, g->device, quality))
+    if (!attach_triangles(s, g->device, quality, threads))
         return false;
     if (tree->curved_count && !attach_curved(&of, g->device, quality))
         return false;
@@ -309,7 +362,7 @@ static RTCDevice make_device(const geometry *g, int threads) {
 }
 
 /* Embree's part of a group's tree. */
-static graze_status build_scene(geometry *g, geometry_tree *tree, int threads, const graze_report *report) {
+static graze_status build_scene(geometry *g, survey *s, int threads, const graze_report *report) {
     trouble t = {.code = RTC_ERROR_NONE};
     if (!g->device)
         g->device = make_device(g, threads);
@@ -318,7 +371,7 @@ static graze_status build_scene(geometry *g, geometry_tree *tree, int threads, c
         return report_trouble(&t, report);
     }
     rtcSetDeviceErrorFunction(g->device, note_trouble, &t);
-    if (!fill_scene(g, tree))
+    if (!fill_scene(g, s, threads))
         note_trouble(&t, RTC_ERROR_UNKNOWN, "no scene");
     rtcSetDeviceErrorFunction(g->device, NULL, NULL);
     return t.code == RTC_ERROR_NONE ? GRAZE_OK : report_trouble(&t, report);
@@ -338,6 +391,23 @@ static bool number_surfaces(const geometry *g, geometry_tree *tree) {
     return true;
 }
 
+static bool allocate_surfaces(geometry_tree *tree) {
+    tree->triangles = aligned_alloc(64, (tree->triangle_count + 1) * sizeof *tree->triangles);
+    tree->curved = malloc((tree->curved_count + 1) * sizeof *tree->curved);
+    return tree->triangles && tree->curved;
+}
+
+static graze_status build_surveyed(geometry *g, survey *s, int threads, const graze_report *report) {
+    geometry_tree *tree = s->tree;
+    if (!find_bounds(g, s, threads) || !allocate_surfaces(tree))
+        return report_out_of_memory(report);
+    if (tree->triangle_count > UINT_MAX / 3)
+        return report_error(report, NULL, "too many triangles");
+    if (tree->triangle_count + tree->curved_count + tree->placed_count == 0)
+        return GRAZE_OK;
+    return build_scene(g, s, threads, report);
+}
+
 static graze_status build_tree(geometry *g, geometry_tree *tree, const geometry_group *group, int threads,
                                const graze_report *report) {
     tree->shapes = group->shapes;
@@ -350,13 +420,10 @@ static graze_status build_tree(geometry *g, geometry_tree *tree, const geometry_
         return report_out_of_memory(report);
     if (group->shape_count > INT_MAX || group->placement_count > INT_MAX || !number_surfaces(g, tree))
         return report_error(report, NULL, "too many surfaces");
-    if (!find_bounds(g, tree) || !collect_surfaces(tree))
-        return report_out_of_memory(report);
-    if (tree->triangle_count > UINT_MAX / 3)
-        return report_error(report, NULL, "too many triangles");
-    if (tree->triangle_count + tree->curved_count + tree->placed_count == 0)
-        return GRAZE_OK;
-    return build_scene(g, tree, threads, report);
+    survey s = {.tree = tree};
+    graze_status status = build_surveyed(g, &s, threads, report);
+    free(s.blocks);
+    return status;
 }
 
 graze_status geometry_build(geometry **made, const geometry_group *groups, size_t count, int threads,

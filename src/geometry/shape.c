@@ -126,7 +126,7 @@ static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive
         s->polygon.offset = vec3_dot(s->polygon.normal, s->polygon.center);
         if (!is_planar(s))
             rad_primitive_warning(report, p, "non-planar vertex");
-        status = shape_tessellate(s, memory, p->where, report);
+        status = shape_tessellate(s, memory, p, report);
         if (status)
             return status;
         for (uint32_t i = 0; i < s->polygon.triangle_count; i++)

@@ -238,10 +238,10 @@ static void GLAPIENTRY glu_on_combine(GLdouble coordinates[3], void *data[4], GL
     *made = glu_carry(mesh_add_vertex(m, shape_pull(s, vertex)));
 }
 
-static graze_status mesh_add_by_glu(mesh *m, const place *where, const graze_report *report) {
+static graze_status mesh_add_by_glu(mesh *m, const rad_primitive *p, const graze_report *report) {
     const geometry_glu *g = geometry_glu_open();
     if (g->trouble[0]) {
-        report_error(report, where, "a concave polygon needs GLU's tessellator: %s", g->trouble);
+        rad_primitive_error(report, p, "a concave polygon needs GLU's tessellator: %s", g->trouble);
         return GRAZE_SYSTEM_ERROR;
     }
     GLUtesselator *tesselator = g->new_tess();
@@ -265,8 +265,7 @@ static graze_status mesh_add_by_glu(mesh *m, const place *where, const graze_rep
     if (m->error == GLU_OUT_OF_MEMORY)
         return report_out_of_memory(report);
     if (m->error)
-        return report_error(report, where, "the polygon cannot be tessellated: %s",
-                            (const char *)g->error_string(m->error));
+        return rad_primitive_error(report, p, "it cannot be tessellated: %s", (const char *)g->error_string(m->error));
     return GRAZE_OK;
 }
 
@@ -291,7 +290,7 @@ static bool mesh_keep(const mesh *m, shape *s, arena *memory) {
     return true;
 }
 
-graze_status shape_tessellate(shape *polygon, arena *memory, const place *where, const graze_report *report) {
+graze_status shape_tessellate(shape *polygon, arena *memory, const rad_primitive *p, const graze_report *report) {
     outline o;
     mesh m = {.outline = &o};
     m.out_of_memory = !outline_make(&o, polygon);
@@ -300,7 +299,7 @@ graze_status shape_tessellate(shape *polygon, arena *memory, const place *where,
         if (outline_is_convex(&o))
             mesh_add_fan(&m);
         else
-            status = mesh_add_by_glu(&m, where, report);
+            status = mesh_add_by_glu(&m, p, report);
     }
     if (status == GRAZE_OK && (m.out_of_memory || !mesh_keep(&m, polygon, memory)))
         status = report_out_of_memory(report);

@@ -100,8 +100,10 @@ static graze_status read_orientation(graze_material *m, const rad_primitive *p, 
         return GRAZE_OK;
 
     rad_transform transform;
+    rad_primitive_name name;
+    const place where = rad_primitive_place(p, &name);
     graze_status status = rad_transform_parse(&transform, p->strings + ORIENTATION_STRINGS,
-                                              (int)(p->string_count - ORIENTATION_STRINGS), p->where, report);
+                                              (int)(p->string_count - ORIENTATION_STRINGS), &where, report);
     if (status != GRAZE_OK)
         return status;
     m->orientation = rad_transform_vector(&transform, vec3_make(u[0], u[1], u[2]));

@@ -24,8 +24,10 @@ static graze_status read_transform(material_owner *o, uint32_t rest) {
     if (first == p->string_count)
         return GRAZE_OK;
     o->moved = true;
+    rad_primitive_name name;
+    const place where = rad_primitive_place(p, &name);
     graze_status status =
-        rad_transform_parse(&o->forward, p->strings + first, (int)(p->string_count - first), p->where, o->report);
+        rad_transform_parse(&o->forward, p->strings + first, (int)(p->string_count - first), &where, o->report);
     if (!status)
         o->backward = rad_transform_inverse(&o->forward);
     return status;
@@ -89,13 +91,15 @@ graze_status material_function_compile(material_function *f, material_library *l
                                        uint32_t file, const cal_expression *expressions, size_t count,
                                        uint64_t channels) {
     const rad_primitive *p = o->primitive;
+    rad_primitive_name name;
+    const place where = rad_primitive_place(p, &name);
     const cal_request request = {.file = p->strings[file],
                                  .expressions = expressions,
                                  .expression_count = count,
                                  .reals = p->reals,
                                  .real_count = p->real_count,
                                  .channels = CAL_CHANNEL_BITS(1, CAL_RAY_CHANNELS) | channels,
-                                 .where = p->where};
+                                 .where = &where};
     f->count = (int)count;
     graze_status status = material_library_compile(library, &request, &f->code);
     return status ? status : try(f, o);

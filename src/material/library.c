@@ -85,8 +85,10 @@ static graze_status need_program(material_library *library) {
 
 graze_status material_library_use_file(material_library *library, const char *file, const rad_primitive *p) {
     const cal_finder finder = {find_file, library};
+    rad_primitive_name owner;
+    const place where = rad_primitive_place(p, &owner);
     graze_status status = need_program(library);
-    return status ? status : cal_program_use_file(library->program, file, &finder, p->where, &library->report);
+    return status ? status : cal_program_use_file(library->program, file, &finder, &where, &library->report);
 }
 
 graze_status material_library_compile(material_library *library, const cal_request *request, cal_code **code) {
@@ -121,9 +123,11 @@ graze_status material_library_data(material_library *library, const char *name, 
             return report_out_of_memory(&library->report);
         *entry = (data_entry){.name = name, .next = library->data};
         library->data = entry;
+        rad_primitive_name owner;
+        const place where = rad_primitive_place(p, &owner);
         entry->status = find_path(library, name, "data file", p, &path);
         if (!entry->status)
-            entry->status = rad_data_read(&entry->data, library->memory, path, name, p->where, &library->report);
+            entry->status = rad_data_read(&entry->data, library->memory, path, name, &where, &library->report);
     }
     *data = &entry->data;
     return entry->status;

@@ -15,16 +15,18 @@ static const rad_primitive *find_surface(const rad_linker *l, const char *id) {
 static graze_status complain_of_name(rad_linker *l, const rad_raw *raw, const char *role, const char *name) {
     const rad_primitive *surface = find_surface(l, name);
     rad_shown shown = rad_show(name, strlen(name));
+    rad_primitive_name user = rad_describe(raw);
     if (surface)
-        return rad_reader_complain(&l->reader, raw->where, "%s \"%s\" is a surface (a %s)", role, shown.text,
-                                   rad_type_name(surface->type));
-    return rad_reader_complain(&l->reader, raw->where, "undefined %s \"%s\"", role, shown.text);
+        return rad_reader_complain(&l->reader, raw->where, "%s: %s \"%s\" is a surface (a %s)", user.text, role,
+                                   shown.text, rad_type_name(surface->type));
+    return rad_reader_complain(&l->reader, raw->where, "%s: undefined %s \"%s\"", user.text, role, shown.text);
 }
 
 static graze_status link_modifier(rad_linker *l, const rad_raw *raw, rad_primitive *primitive) {
     primitive->modifier = RAD_VOID;
     if (raw->type != RAD_ALIAS && !strcmp(raw->modifier, "inherit"))
-        return rad_reader_complain(&l->reader, raw->where, "only an alias can have the modifier \"inherit\"");
+        return rad_reader_complain(&l->reader, raw->where, "%s: only an alias can have the modifier \"inherit\"",
+                                   rad_describe(raw).text);
     if (!strcmp(raw->modifier, "void") || !strcmp(raw->modifier, "inherit") ||
         rad_name_table_find(&l->modifiers, raw->modifier, &primitive->modifier))
         return GRAZE_OK;
@@ -60,6 +62,7 @@ graze_status rad_linker_append(rad_linker *l, const rad_primitive *primitive) {
         scene->capacity = capacity;
     }
     scene->primitives[scene->count++] = *primitive;
+    scene->counts[primitive->type]++;
     return GRAZE_OK;
 }
 

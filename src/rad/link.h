@@ -10,6 +10,7 @@ struct rad_scene {
     arena *memory;
     rad_primitive *primitives; /* of all parts */
     size_t count, capacity;
+    size_t counts[RAD_TYPE_COUNT + 1]; /* by type; the last is of those that have none */
     rad_part *parts;
     size_t part_count, part_capacity;
     rad_copy *copies;

@@ -55,7 +55,7 @@ static graze_status read_file(rad_linker *l, const rad_primitive *user, const ch
     place *where = arena_allocate(scene->memory, sizeof *where);
     if (!where)
         return report_out_of_memory(l->reader.report);
-    *where = (place){path, 0, 0, user->where};
+    *where = (place){.file = path, .parent = user->where};
     whole_file file;
     graze_status status = whole_file_read_path(&file, path, path, user->where, l->reader.report);
     if (status)

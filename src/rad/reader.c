@@ -13,13 +13,14 @@
 #include "base/whole_file.h"
 #include "rad/command.h"
 #include "rad/octree.h"
-#include "rad/words.h"
+#include "rad/pieces.h"
+#include "rad/source.h"
 #include "rad/xform.h"
 
 enum { DEPTH_MOST = 64, ERRORS_MOST = 20 };
 
 void rad_reader_begin(rad_reader *reader, arena *memory, const graze_report *report) {
-    *reader = (rad_reader){.memory = memory, .report = report, .last_type = RAD_POLYGON};
+    *reader = (rad_reader){.memory = memory, .report = report, .threads = 1, .last_type = RAD_POLYGON};
 }
 
 void rad_reader_end(rad_reader *reader) {
@@ -50,21 +51,11 @@ rad_shown rad_show(const char *text, size_t length) {
     return shown;
 }
 
-/* One input being read. */
-typedef struct source {
-    rad_reader *reader;
-    rad_words words;
-    const char *name;
-    const rad_context *context;
-    const rad_sink *sink;
-    bool any; /* primitives found */
-} source;
-
-static place place_at(const source *s, int line, int column) {
-    return (place){s->name, line, column, s->context->parent};
+static place place_at(const rad_source *s, int line, int column) {
+    return (place){.file = s->name, .line = line, .column = column, .parent = s->context->parent};
 }
 
-static const place *keep_place(rad_reader *reader, place where) {
+static place *keep_place(rad_reader *reader, place where) {
     place *kept = arena_allocate(reader->memory, sizeof *kept);
     if (kept)
         *kept = where;
@@ -77,15 +68,25 @@ static bool word_is(const rad_word *word, const char *text) {
 
 #define SHOW(word) rad_show((word)->text, (word)->length).text
 
+rad_primitive_name rad_describe(const rad_raw *raw) {
+    rad_primitive_name name = {""};
+    const char *type = raw->type == RAD_ALIAS ? "alias" : rad_type_name((rad_type)raw->type);
+    if (raw->id)
+        snprintf(name.text, sizeof name.text, "%s %s", type, rad_show(raw->id, strlen(raw->id)).text);
+    return name;
+}
+
 /* ---- The words of one primitive ---- */
 
 /* Reads a word that must be there. Whatever is wrong, the rest of the input cannot be understood. */
-static graze_status need_word(source *s, rad_word *word, const place *start, const char *what) {
+static graze_status need_word(rad_source *s, rad_word *word, const rad_raw *raw, const char *what) {
     rad_word_status outcome = rad_words_next(&s->words, word);
     if (outcome == RAD_WORD)
         return GRAZE_OK;
     const graze_report *report = s->reader->report;
-    place here = place_at(s, word->line, word->column);
+    rad_primitive_name name = rad_describe(raw);
+    place here = place_at(s, word->line, word->column), start = *raw->where;
+    here.subject = start.subject = *name.text ? name.text : NULL;
     switch (outcome) {
     case RAD_WORD_OPEN:
         return report_error(report, &here, "quote without end");
@@ -94,7 +95,7 @@ static graze_status need_word(source *s, rad_word *word, const place *start, con
     case RAD_WORD_NO_MEMORY:
         return report_out_of_memory(report);
     default:
-        return report_error(report, start, "ends before the primitive's %s", what);
+        return report_error(report, &start, "the text ends before %s %s", raw->id ? "its" : "the primitive's", what);
     }
 }
 
@@ -103,10 +104,10 @@ static graze_status keep_text(rad_reader *reader, const rad_word *word, const ch
     return *text ? GRAZE_OK : report_out_of_memory(reader->report);
 }
 
-static graze_status read_modifier(source *s, rad_raw *raw) {
+static graze_status read_modifier(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
-    graze_status status = need_word(s, &word, raw->where, "modifier");
+    graze_status status = need_word(s, &word, raw, "modifier");
     if (status)
         return status;
     if (!reader->last_modifier || !word_is(&word, reader->last_modifier))
@@ -116,10 +117,10 @@ static graze_status read_modifier(source *s, rad_raw *raw) {
     return GRAZE_OK;
 }
 
-static graze_status read_type(source *s, rad_raw *raw) {
+static graze_status read_type(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
-    graze_status status = need_word(s, &word, raw->where, "type");
+    graze_status status = need_word(s, &word, raw, "type");
     if (status)
         return status;
     if (word_is(&word, "alias")) {
@@ -148,10 +149,10 @@ static bool has_control_character(const rad_word *word) {
     return false;
 }
 
-static graze_status read_id(source *s, rad_raw *raw) {
+static graze_status read_id(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     rad_word word;
-    graze_status status = need_word(s, &word, raw->where, "name");
+    graze_status status = need_word(s, &word, raw, "name");
     if (status)
         return status;
     place here = place_at(s, word.line, word.column);
@@ -166,31 +167,24 @@ static graze_status read_id(source *s, rad_raw *raw) {
     return status ? status : keep_text(reader, &word, &raw->id);
 }
 
-/* "sphere ball" for messages. */
-static const char *describe(const rad_raw *raw, char text[120]) {
-    const char *type = raw->type == RAD_ALIAS ? "alias" : rad_type_name((rad_type)raw->type);
-    snprintf(text, 120, "%s %s", type, rad_show(raw->id, strlen(raw->id)).text);
-    return text;
-}
-
-static graze_status read_count(source *s, const rad_raw *raw, const char *what, uint32_t *count) {
-    char text[120];
+static graze_status read_count(rad_source *s, const rad_raw *raw, const char *what, uint32_t *count) {
     rad_word word;
-    graze_status status = need_word(s, &word, raw->where, what);
+    graze_status status = need_word(s, &word, raw, what);
     if (status)
         return status;
     place here = place_at(s, word.line, word.column);
     char digits[32];
     if (word.length >= sizeof digits)
-        return report_error(s->reader->report, &here, "%s: \"%s\" is too long for a %s", describe(raw, text),
+        return report_error(s->reader->report, &here, "%s: \"%s\" is too long for a %s", rad_describe(raw).text,
                             SHOW(&word), what);
     memcpy(digits, word.text, word.length);
     digits[word.length] = 0;
     int value = -1;
     if (!text_to_integer(digits, &value) || value < 0)
-        return report_error(s->reader->report, &here, "%s: \"%s\" is not a %s", describe(raw, text), SHOW(&word), what);
+        return report_error(s->reader->report, &here, "%s: \"%s\" is not a %s", rad_describe(raw).text, SHOW(&word),
+                            what);
     *count = (uint32_t)value;
-    return GRAZE_OK;
+    return *count <= s->arguments_most ? GRAZE_OK : GRAZE_INPUT_ERROR;
 }
 
 /* Grows with what has been read, not with what a count promises. */
@@ -204,11 +198,11 @@ static void *grow(rad_reader *reader, void *array, size_t *capacity, size_t size
     return larger;
 }
 
-static graze_status read_strings(source *s, rad_raw *raw, uint32_t count) {
+static graze_status read_strings(rad_source *s, rad_raw *raw, uint32_t count) {
     rad_reader *reader = s->reader;
     for (uint32_t i = 0; i < count; ++i) {
         rad_word word;
-        graze_status status = need_word(s, &word, raw->where, "last string argument");
+        graze_status status = need_word(s, &word, raw, "last string argument");
         if (status)
             return status;
         if (i == reader->string_capacity) {
@@ -232,33 +226,31 @@ static graze_status read_strings(source *s, rad_raw *raw, uint32_t count) {
 }
 
 /* Of integers there must be none; a primitive that has some is passed over. */
-static graze_status read_integers(source *s, rad_raw *raw) {
-    char text[120];
+static graze_status read_integers(rad_source *s, rad_raw *raw) {
     uint32_t count = 0;
     graze_status status = read_count(s, raw, "number of integer arguments", &count);
     if (status || count == 0)
         return status;
     raw->broken = true;
     status = rad_reader_complain(s->reader, raw->where, "%s: %u integer arguments where there must be none",
-                                 describe(raw, text), (unsigned)count);
+                                 rad_describe(raw).text, (unsigned)count);
     rad_word word;
     for (uint32_t i = 0; i < count && !status; ++i)
-        status = need_word(s, &word, raw->where, "last integer argument");
+        status = need_word(s, &word, raw, "last integer argument");
     return status;
 }
 
-static graze_status read_bad_real(source *s, rad_raw *raw) {
-    char text[120];
+static graze_status read_bad_real(rad_source *s, rad_raw *raw) {
     rad_word word;
-    graze_status status = need_word(s, &word, raw->where, "last real argument");
+    graze_status status = need_word(s, &word, raw, "last real argument");
     if (status || raw->broken)
         return status;
     raw->broken = true;
     place here = place_at(s, word.line, word.column);
-    return rad_reader_complain(s->reader, &here, "%s: \"%s\" is not a number", describe(raw, text), SHOW(&word));
+    return rad_reader_complain(s->reader, &here, "%s: \"%s\" is not a number", rad_describe(raw).text, SHOW(&word));
 }
 
-static graze_status read_reals(source *s, rad_raw *raw) {
+static graze_status read_reals(rad_source *s, rad_raw *raw) {
     rad_reader *reader = s->reader;
     uint32_t count = 0;
     graze_status status = read_count(s, raw, "number of real arguments", &count);
@@ -284,17 +276,32 @@ static graze_status read_reals(source *s, rad_raw *raw) {
     return GRAZE_OK;
 }
 
+static int strings_most(const rad_raw *raw, const rad_type_facts *facts) {
+    if (facts->strings_least > 0 || raw->type == RAD_MIST)
+        return RAD_ANY_COUNT;
+    return raw->type == RAD_ILLUM || raw->type == RAD_MIRROR;
+}
+
+/* What Radiance passes over in silence. */
+static void warn_of_unused(rad_reader *reader, const rad_raw *raw, const rad_type_facts *facts) {
+    int most = strings_most(raw, facts);
+    if (most != RAD_ANY_COUNT && raw->string_count > (uint32_t)most)
+        report_warning(reader->report, raw->where, "%s: string argument %d, \"%s\", has no meaning",
+                       rad_describe(raw).text, most + 1, rad_show(raw->strings[most], strlen(raw->strings[most])).text);
+    if ((raw->type == RAD_MESH || raw->type == RAD_INSTANCE) && raw->real_count > 0)
+        report_warning(reader->report, raw->where, "%s: real arguments have no meaning", rad_describe(raw).text);
+}
+
 static graze_status check_strings(rad_reader *reader, rad_raw *raw, const rad_type_facts *facts) {
-    char text[120];
     if (raw->string_count >= (uint32_t)facts->strings_least)
         return GRAZE_OK;
     raw->broken = true;
     return rad_reader_complain(reader, raw->where, "%s: %u string arguments, but it needs %d or more",
-                               describe(raw, text), (unsigned)raw->string_count, facts->strings_least);
+                               rad_describe(raw).text, (unsigned)raw->string_count, facts->strings_least);
 }
 
 static graze_status check_reals(rad_reader *reader, rad_raw *raw, const rad_type_facts *facts) {
-    char text[120], wanted[48];
+    char wanted[48];
     bool too_few = raw->real_count < (uint32_t)facts->reals_least;
     bool too_many = facts->reals_most != RAD_ANY_COUNT && raw->real_count > (uint32_t)facts->reals_most;
     if (!too_few && !too_many && raw->real_count % (uint32_t)facts->reals_step == 0)
@@ -308,7 +315,7 @@ static graze_status check_reals(rad_reader *reader, rad_raw *raw, const rad_type
         snprintf(wanted, sizeof wanted, "%d or more", facts->reals_least);
     else
         snprintf(wanted, sizeof wanted, "%d to %d", facts->reals_least, facts->reals_most);
-    return rad_reader_complain(reader, raw->where, "%s: %u real arguments, but it needs %s", describe(raw, text),
+    return rad_reader_complain(reader, raw->where, "%s: %u real arguments, but it needs %s", rad_describe(raw).text,
                                (unsigned)raw->real_count, wanted);
 }
 
@@ -317,10 +324,14 @@ graze_status rad_reader_check(rad_reader *reader, rad_raw *raw) {
         return GRAZE_OK;
     const rad_type_facts *facts = rad_type_look_up((rad_type)raw->type);
     graze_status status = check_strings(reader, raw, facts);
-    return status || raw->broken ? status : check_reals(reader, raw, facts);
+    if (!status && !raw->broken)
+        status = check_reals(reader, raw, facts);
+    if (!status && !raw->broken)
+        warn_of_unused(reader, raw, facts);
+    return status;
 }
 
-static graze_status read_arguments(source *s, rad_raw *raw) {
+static graze_status read_arguments(rad_source *s, rad_raw *raw) {
     if (raw->type == RAD_ALIAS)
         return read_strings(s, raw, 1);
     uint32_t count = 0;
@@ -334,22 +345,28 @@ static graze_status read_arguments(source *s, rad_raw *raw) {
     return status ? status : rad_reader_check(s->reader, raw);
 }
 
-static graze_status read_primitive(source *s, int line, int column) {
-    rad_raw raw = {.where = keep_place(s->reader, place_at(s, line, column))};
-    if (!raw.where)
+graze_status rad_source_primitive(rad_source *s, int line, int column, rad_raw *raw, place **where) {
+    *where = keep_place(s->reader, place_at(s, line, column));
+    if (!*where)
         return report_out_of_memory(s->reader->report);
+    *raw = (rad_raw){.where = *where};
     s->any = true;
-    graze_status status = read_modifier(s, &raw);
+    graze_status status = read_modifier(s, raw);
     if (!status)
-        status = read_type(s, &raw);
+        status = read_type(s, raw);
     if (!status)
-        status = read_id(s, &raw);
-    if (!status)
-        status = read_arguments(s, &raw);
+        status = read_id(s, raw);
+    return status ? status : read_arguments(s, raw);
+}
+
+static graze_status read_primitive(rad_source *s, int line, int column) {
+    rad_raw raw;
+    place *where;
+    graze_status status = rad_source_primitive(s, line, column, &raw, &where);
     return status ? status : s->sink->take(s->sink->user, &raw);
 }
 
-static graze_status read_command(source *s, int line, int column) {
+static graze_status read_command(rad_source *s, int line, int column) {
     rad_reader *reader = s->reader;
     ++s->words.next;
     rad_word word;
@@ -368,30 +385,46 @@ static graze_status read_command(source *s, int line, int column) {
 
 /* ---- Whole inputs ---- */
 
+graze_status rad_source_read(rad_source *s, const char *until) {
+    for (;;) {
+        int line, column;
+        char first = rad_words_peek(&s->words, &line, &column);
+        if (s->words.next >= until)
+            return GRAZE_OK;
+        graze_status status = GRAZE_OK;
+        if (first == '#')
+            rad_words_skip_line(&s->words);
+        else if (first == '!')
+            status = read_command(s, line, column);
+        else
+            status = read_primitive(s, line, column);
+        if (status)
+            return status;
+    }
+}
+
+static bool is_within_itself(const place *where) {
+    for (const place *p = where->parent; p; p = p->parent)
+        if (!strcmp(p->file, where->file))
+            return true;
+    return false;
+}
+
 static graze_status read_text(rad_reader *reader, const whole_file *text, const char *name, const rad_context *context,
                               const rad_sink *sink) {
-    source s = {.reader = reader, .name = name, .context = context, .sink = sink};
+    rad_source s = {.reader = reader, .name = name, .context = context, .sink = sink, .arguments_most = UINT32_MAX};
     place here = place_at(&s, 0, 0);
     if (context->depth > DEPTH_MOST)
-        return report_error(reader->report, &here, "files and commands are nested more than %d deep", DEPTH_MOST);
+        return report_error(reader->report, &here, "%sfiles and commands are nested more than %d deep",
+                            is_within_itself(&here) ? "brings in itself: " : "", DEPTH_MOST);
     if (rad_octree_is(text)) {
         const place *where = keep_place(reader, here);
         return where ? rad_octree_read(reader, text, where, context, sink) : report_out_of_memory(reader->report);
     }
     rad_words_begin(&s.words, text->bytes, text->length);
-    graze_status status = GRAZE_OK;
-    while (!status) {
-        int line, column;
-        char first = rad_words_peek(&s.words, &line, &column);
-        if (!first && s.words.next == s.words.end)
-            break;
-        if (first == '#')
-            rad_words_skip_line(&s.words);
-        else if (first == '!')
-            status = read_command(&s, line, column);
-        else
-            status = read_primitive(&s, line, column);
-    }
+    graze_status status = rad_pieces_are_worth_it(&s) ? rad_pieces_read(&s) : GRAZE_OK;
+    if (!status)
+        status = rad_source_read(&s, s.words.end);
     rad_words_end(&s.words);
     if (!status && !s.any)
         report_warning(reader->report, &here, "no primitives");
@@ -424,16 +457,24 @@ graze_status rad_reader_standard_input(rad_reader *reader, const rad_context *co
 
 /* ---- Commands ---- */
 
+/* "!COMMAND" as places have it. */
+static const char *name_command(rad_reader *reader, const char *command) {
+    char name[sizeof(rad_shown) + 1];
+    size_t length = strlen(command);
+    while (length > 0 && command[length - 1] == ' ')
+        length--;
+    snprintf(name, sizeof name, "!%s", rad_show(command, length).text);
+    return arena_copy_text(reader->memory, name, strlen(name));
+}
+
 graze_status rad_reader_shell(rad_reader *reader, const char *command, const rad_context *context,
                               const rad_sink *sink) {
-    char name[sizeof(rad_shown) + 1];
-    snprintf(name, sizeof name, "!%s", rad_show(command, strlen(command)).text);
-    const char *kept = arena_copy_text(reader->memory, name, strlen(name));
-    if (!kept)
+    const char *name = name_command(reader, command);
+    if (!name)
         return report_out_of_memory(reader->report);
     whole_file text;
     graze_status got = rad_command_output(&text, command, context->directory, context->parent, reader->report);
-    return read_got(reader, got, &text, kept, context, sink);
+    return read_got(reader, got, &text, name, context, sink);
 }
 
 graze_status rad_reader_command(rad_reader *reader, const char *command, const rad_context *context,
@@ -443,5 +484,7 @@ graze_status rad_reader_command(rad_reader *reader, const char *command, const r
         return report_out_of_memory(reader->report);
     if (pipeline.stage_count == 0)
         return rad_reader_shell(reader, command, context, sink);
-    return rad_xform_run(reader, &pipeline, context, sink);
+    const char *name = name_command(reader, command);
+    const place *where = name ? keep_place(reader, (place){.file = name, .parent = context->parent}) : NULL;
+    return where ? rad_xform_run(reader, &pipeline, context, where, sink) : report_out_of_memory(reader->report);
 }

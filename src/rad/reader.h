@@ -27,6 +27,7 @@ typedef struct rad_sink {
 typedef struct rad_reader {
     arena *memory; /* for all that primitives point to */
     const graze_report *report;
+    int threads;         /* that may read one text */
     graze_status status; /* of the first error that reading went on after */
     int error_count;
     /* Neighbouring primitives mostly share these. */
@@ -58,6 +59,9 @@ graze_status rad_reader_shell(rad_reader *, const char *command, const rad_conte
 
 /* Complains of argument counts that are not those of its type. */
 graze_status rad_reader_check(rad_reader *, rad_raw *);
+
+/* For messages; "" before its name is known. */
+rad_primitive_name rad_describe(const rad_raw *);
 
 /* Reports an error that reading may go on after; gives the error's status when there have been too many of them. */
 graze_status rad_reader_complain(rad_reader *, const place *where, const char *format, ...)

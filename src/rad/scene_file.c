@@ -20,6 +20,11 @@ static graze_status read_scene(rad_linker *l, const char *name) {
 }
 
 graze_status rad_scene_read(rad_scene **scene, const char *const *names, size_t count, const graze_report *report) {
+    return rad_scene_read_by(1, scene, names, count, report);
+}
+
+graze_status rad_scene_read_by(int threads, rad_scene **scene, const char *const *names, size_t count,
+                               const graze_report *report) {
     *scene = calloc(1, sizeof **scene);
     arena *memory = arena_create();
     if (!*scene || !memory) {
@@ -31,6 +36,7 @@ graze_status rad_scene_read(rad_scene **scene, const char *const *names, size_t 
     (*scene)->memory = memory;
     rad_linker l = {.scene = *scene};
     rad_reader_begin(&l.reader, memory, report);
+    l.reader.threads = threads;
     graze_status status = GRAZE_OK;
     for (size_t i = 0; i < count && !status; ++i)
         status = read_scene(&l, names[i]);
@@ -60,6 +66,10 @@ const rad_primitive *rad_scene_primitives(const rad_scene *scene, size_t *count)
     return scene->primitives;
 }
 
+size_t rad_scene_count(const rad_scene *scene, rad_type type) {
+    return scene->counts[type];
+}
+
 const rad_part *rad_scene_parts(const rad_scene *scene, size_t *count) {
     *count = scene->part_count;
     return scene->parts;
@@ -81,6 +91,14 @@ __attribute__((format(printf, 2, 0))) static message compose(const rad_primitive
                          rad_show(primitive->id, strlen(primitive->id)).text);
     vsnprintf(m.text + begun, sizeof m.text - (size_t)begun, format, arguments);
     return m;
+}
+
+place rad_primitive_place(const rad_primitive *primitive, rad_primitive_name *name) {
+    snprintf(name->text, sizeof name->text, "%s %s", rad_type_name(primitive->type),
+             rad_show(primitive->id, strlen(primitive->id)).text);
+    place where = *primitive->where;
+    where.subject = name->text;
+    return where;
 }
 
 graze_status rad_primitive_error(const graze_report *report, const rad_primitive *primitive, const char *format, ...) {

@@ -130,6 +130,8 @@ typedef struct rad_scene rad_scene;
  * for. Undefined modifiers, unknown types, wrong argument counts or malformed numbers, a failing command: errors with
  * their place. All errors of a file that can be told apart are reported, up to 20, before this returns. */
 graze_status rad_scene_read(rad_scene **, const char *const *names, size_t count, const graze_report *);
+/* The same, and large texts by several threads. */
+graze_status rad_scene_read_by(int threads, rad_scene **, const char *const *names, size_t count, const graze_report *);
 /* Reads the octrees and meshes that the scene's instances and meshes name, each once, and those that these name.
  * Octrees in octrees that hold themselves are an error, and so are files that are not there, or damaged. */
 graze_status rad_scene_read_parts(rad_scene *, const graze_report *);
@@ -137,13 +139,22 @@ void rad_scene_destroy(rad_scene *);
 
 /* Of all parts that have been read. */
 const rad_primitive *rad_scene_primitives(const rad_scene *, size_t *count);
+/* How many of a type there are among them. */
+size_t rad_scene_count(const rad_scene *, rad_type);
 /* These are there after rad_scene_read_parts. */
 const rad_part *rad_scene_parts(const rad_scene *, size_t *count);
 const rad_copy *rad_scene_copies(const rad_scene *);
 
+/* "sphere ball" */
+typedef struct rad_primitive_name {
+    char text[120];
+} rad_primitive_name;
+
 /* Reports an error about a primitive: "FILE:LINE:COLUMN: TYPE ID: TEXT". */
 graze_status rad_primitive_error(const graze_report *, const rad_primitive *, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* Its place, under its name, for messages from where primitives are not known. It is valid as long as *name. */
+place rad_primitive_place(const rad_primitive *, rad_primitive_name *name);
 void rad_primitive_warning(const graze_report *, const rad_primitive *, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

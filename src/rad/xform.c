@@ -28,6 +28,7 @@ typedef struct list {
 typedef struct job {
     rad_reader *reader;
     const rad_context *context;
+    const place *command; /* what brings in files */
     const rad_sink *sink;
     list *input;               /* its standard input; or null: there is nothing on it */
     const whole_file *options; /* its standard input, where that is an argument file */
@@ -117,6 +118,7 @@ static graze_status read_file(const job *j, const char *name, bool expand, const
     if (!strncmp(path, "./", 2))
         path += 2;
     rad_context inner = *j->context;
+    inner.parent = j->command;
     if (expand) {
         bool own;
         inner.directory = rad_path_directory(memory, path, &own);
@@ -402,9 +404,7 @@ static graze_status run(job *j, const char *const *words, int count, int depth) 
     return file ? run_file(j, words, count, file, depth) : run_array(j, words, count, array, depth);
 }
 
-static graze_status run_stage(rad_reader *reader, const rad_stage *stage, const rad_context *context, list *input,
-                              const whole_file *options, const rad_sink *sink) {
-    job j = {.reader = reader, .context = context, .sink = sink, .input = input, .options = options};
+static graze_status run_stage(job j, const rad_stage *stage) {
     j.once = !find_word(stage->words, stage->count, "-f") && !find_word(stage->words, stage->count, "-a");
     graze_status status = run(&j, stage->words, stage->count, 0);
     for (int i = 0; i < KEPT_FILES; ++i)
@@ -413,7 +413,7 @@ static graze_status run_stage(rad_reader *reader, const rad_stage *stage, const 
 }
 
 graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, const rad_context *context,
-                           const rad_sink *sink) {
+                           const place *command, const rad_sink *sink) {
     list passed[2] = {{0}, {0}}; /* from one stage to the next, in turn */
     list *input = NULL;
     whole_file options = {NULL, 0};
@@ -430,8 +430,13 @@ graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, con
         list_sink kept = {reader, output};
         bool last = i == pipeline->stage_count - 1;
         output->count = 0;
-        status = run_stage(reader, &pipeline->stages[i], context, input, i == 0 && options.bytes ? &options : NULL,
-                           last ? sink : &(rad_sink){append, &kept});
+        const job j = {.reader = reader,
+                       .context = context,
+                       .command = command,
+                       .sink = last ? sink : &(rad_sink){append, &kept},
+                       .input = input,
+                       .options = i == 0 && options.bytes ? &options : NULL};
+        status = run_stage(j, &pipeline->stages[i]);
         input = output;
     }
     list_free(&passed[0]);

@@ -9,7 +9,8 @@ typedef struct scene_builder {
     graze_scene *scene;
     const graze_scene_settings *settings;
     const graze_report *report;
-    int *material_of; /* by primitive: index into scene->materials, or -1 */
+    size_t own, own_surfaces; /* of the primitives, those that are the scene's and no copied part's */
+    int *material_of;         /* by primitive: index into scene->materials, or -1 */
     graze_status status;
 } scene_builder;
 

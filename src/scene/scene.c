@@ -177,6 +177,10 @@ int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
     return material_of(b, surface->modifier);
 }
 
+static int threads_of(const scene_builder *b) {
+    return b->settings->threads > 1 ? b->settings->threads : 1;
+}
+
 static void add_light(scene_builder *b, scene_light light) {
     if (!rgb_is_black(light.radiance))
         b->scene->lights[b->scene->light_count++] = light;
@@ -294,16 +298,16 @@ static bool sources_are_apart(const graze_scene *scene) {
 }
 
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
-static void add_surfaces(scene_builder *b, size_t count) {
+static void add_surfaces(scene_builder *b) {
     graze_scene *scene = b->scene;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < b->own; i++) {
         const rad_primitive *p = &scene->primitives[i];
         if (rad_type_is_surface(p->type) && p->type != RAD_SOURCE && p->type != RAD_MESH && p->type != RAD_INSTANCE)
             add_shape(b, (int)i);
     }
     scene->first_source = scene->light_count;
-    for (int glow = 0; glow <= 1; glow++)
-        for (size_t i = 0; i < count; i++)
+    for (int glow = 0; glow <= 1 && rad_scene_count(scene->description, RAD_SOURCE) > 0; glow++)
+        for (size_t i = 0; i < b->own; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
     scene->sources_apart = sources_are_apart(scene);
@@ -321,12 +325,9 @@ static bool needs_sights(const graze_scene *scene) {
 
 /* Arrays as large as they can become: surfaces and materials are primitives, lights are surfaces, or materials where
  * they are only seen. */
-static graze_status allocate(scene_builder *b, size_t count) {
+static graze_status allocate(scene_builder *b) {
     graze_scene *scene = b->scene;
-    size_t surfaces = 0;
-    for (size_t i = 0; i < count; i++)
-        surfaces += rad_type_is_surface(scene->primitives[i].type) != 0;
-    size_t modifiers = scene->primitive_count - surfaces;
+    size_t surfaces = b->own_surfaces, modifiers = scene->primitive_count - surfaces;
     scene->memory = arena_create();
     scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
     scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
@@ -340,31 +341,36 @@ static graze_status allocate(scene_builder *b, size_t count) {
     return GRAZE_OK;
 }
 
-static bool has_copies(const rad_primitive *primitives, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (primitives[i].type == RAD_MESH || primitives[i].type == RAD_INSTANCE)
-            return true;
-    return false;
+static bool has_copies(const graze_scene *scene) {
+    return rad_scene_count(scene->description, RAD_MESH) + rad_scene_count(scene->description, RAD_INSTANCE) > 0;
 }
 
-/* From primitives to surfaces, materials and lights. `count` of the primitives are the scene's own. */
-static graze_status add_all(scene_builder *b, size_t count) {
+static graze_status read_description(scene_builder *b, const char *const *names, size_t count) {
+    graze_scene *scene = b->scene;
+    graze_status status = rad_scene_read_by(threads_of(b), &scene->description, names, count, b->report);
+    if (status)
+        return status;
+    (void)rad_scene_primitives(scene->description, &b->own);
+    for (int type = 0; type < RAD_TYPE_COUNT; type++)
+        if (rad_type_is_surface((rad_type)type))
+            b->own_surfaces += rad_scene_count(scene->description, (rad_type)type);
+    return has_copies(scene) ? rad_scene_read_parts(scene->description, b->report) : GRAZE_OK;
+}
+
+/* From primitives to surfaces, materials and lights. */
+static graze_status add_all(scene_builder *b) {
     graze_scene *scene = b->scene;
     scene->primitives = rad_scene_primitives(scene->description, &scene->primitive_count);
     b->status = scene_check_models(b->settings, scene->primitives, scene->primitive_count, b->report);
     if (b->status == GRAZE_OK)
-        b->status = allocate(b, count);
+        b->status = allocate(b);
     if (b->status != GRAZE_OK)
         return b->status;
     scene_check_ambient(b->settings, scene->primitives, scene->primitive_count, b->report);
-    add_surfaces(b, count);
-    if (has_copies(scene->primitives, count) && b->status != GRAZE_SYSTEM_ERROR)
+    add_surfaces(b);
+    if (has_copies(scene) && b->status != GRAZE_SYSTEM_ERROR)
         scene_add_copies(b);
     return b->status;
-}
-
-static int threads_of(const scene_builder *b) {
-    return b->settings->threads > 1 ? b->settings->threads : 1;
 }
 
 static graze_status build_geometry(scene_builder *b) {
@@ -378,8 +384,7 @@ static graze_status build_geometry(scene_builder *b) {
         const scene_part *part = &scene->parts[i];
         groups[i] = (geometry_group){part->shapes, part->surface_count, part->placements, part->copy_count};
     }
-    graze_status status =
-        geometry_build(&scene->geometry, groups, count, b->settings->threads > 1 ? b->settings->threads : 1, b->report);
+    graze_status status = geometry_build(&scene->geometry, groups, count, threads_of(b), b->report);
     free(groups);
     if (status == GRAZE_OK && needs_sights(scene))
         status = geometry_prepare_sights(scene->geometry, b->report);
@@ -395,15 +400,9 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         return report_out_of_memory(report);
     scene_builder b = {
         .scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
-    b.status = rad_scene_read(&scene->description, descriptions, count, report);
-    if (b.status == GRAZE_OK) {
-        size_t own_count;
-        scene->primitives = rad_scene_primitives(scene->description, &own_count);
-        if (has_copies(scene->primitives, own_count))
-            b.status = rad_scene_read_parts(scene->description, report);
-        if (b.status == GRAZE_OK)
-            b.status = add_all(&b, own_count);
-    }
+    b.status = read_description(&b, descriptions, count);
+    if (b.status == GRAZE_OK)
+        b.status = add_all(&b);
     if (b.status == GRAZE_OK)
         b.status = light_patterns_prepare(scene, threads_of(&b), report);
     if (b.status == GRAZE_OK)

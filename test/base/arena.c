@@ -82,6 +82,24 @@ static void test_copies(void **state) {
     arena_destroy(a);
 }
 
+static void test_absorbs_another(void **state) {
+    (void)state;
+    arena *a = arena_create(), *other = arena_create(), *empty = arena_create();
+    assert_true(a && other && empty);
+    char *own = arena_copy_text(a, "own", 3), *moved = arena_copy_text(other, "moved", 5);
+    char *large = arena_allocate(other, 100000);
+    assert_true(own && moved && large);
+    memset(large, 'x', 100000);
+    arena_absorb(a, other);
+    arena_absorb(a, empty);
+    for (int i = 0; i < 1000; i++)
+        assert_string_equal(arena_copy_text(a, "later", 5), "later");
+    assert_string_equal(own, "own");
+    assert_string_equal(moved, "moved");
+    assert_int_equal(large[99999], 'x');
+    arena_destroy(a);
+}
+
 static void test_null_is_let_pass(void **state) {
     (void)state;
     arena_destroy(NULL);
@@ -91,7 +109,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pieces_are_apart), cmocka_unit_test(test_empty_pieces_differ),
         cmocka_unit_test(test_large_piece),      cmocka_unit_test(test_impossible_sizes),
-        cmocka_unit_test(test_copies),           cmocka_unit_test(test_null_is_let_pass),
+        cmocka_unit_test(test_copies),           cmocka_unit_test(test_absorbs_another),
+        cmocka_unit_test(test_null_is_let_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,6 +43,32 @@ static void test_nested_commands(void **state) {
     assert_string_equal(c.text, "`!genbox a b 1 1 1`:5:9: bad (from `!gen all`:2:1, from room.rad:3:1)");
 }
 
+static void test_deep_nesting_is_cut(void **state) {
+    (void)state;
+    captured c;
+    captured_begin(&c);
+    enum { DEEP = 9 };
+    place places[DEEP];
+    for (int i = 0; i < DEEP; i++)
+        places[i] = (place){.file = "f", .line = i + 1, .parent = i > 0 ? &places[i - 1] : NULL};
+    report_error(&c.report, &places[7], "bad");
+    assert_string_equal(c.text, "f:8: bad (from f:7, from f:6, from f:5, from f:4, from f:3, from f:2, from f:1)");
+    report_error(&c.report, &places[8], "bad");
+    assert_string_equal(c.text,
+                        "f:9: bad (from f:8, from f:7, from f:6, from f:5, ... 2 more ..., from f:2, from f:1)");
+}
+
+static void test_subjects(void **state) {
+    (void)state;
+    captured c;
+    captured_begin(&c);
+    place pattern = {.file = "room.rad", .line = 3, .column = 1, .subject = "brightfunc f"};
+    report_error(&c.report, &pattern, "bad");
+    assert_string_equal(c.text, "room.rad:3:1: brightfunc f: bad");
+    report_error(&c.report, &(place){.file = "f.cal", .line = 2, .parent = &pattern}, "bad");
+    assert_string_equal(c.text, "f.cal:2: bad (from brightfunc f at room.rad:3:1)");
+}
+
 static void test_percent_in_names(void **state) {
     (void)state;
     captured c;
@@ -159,10 +185,16 @@ static void test_threads(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_place_prefix),      cmocka_unit_test(test_nested_commands),
-        cmocka_unit_test(test_percent_in_names),  cmocka_unit_test(test_system_error),
-        cmocka_unit_test(test_file_error),        cmocka_unit_test(test_severities),
-        cmocka_unit_test(test_discarding_report), cmocka_unit_test(test_long_texts),
+        cmocka_unit_test(test_place_prefix),
+        cmocka_unit_test(test_nested_commands),
+        cmocka_unit_test(test_deep_nesting_is_cut),
+        cmocka_unit_test(test_subjects),
+        cmocka_unit_test(test_percent_in_names),
+        cmocka_unit_test(test_system_error),
+        cmocka_unit_test(test_file_error),
+        cmocka_unit_test(test_severities),
+        cmocka_unit_test(test_discarding_report),
+        cmocka_unit_test(test_long_texts),
         cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,7 +129,16 @@ fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
 printf '#comment\nvoid mist g 0 0 0\ng sphere s 0 0 4 0 0 0 1\n' >mist.rad
 fails "a type not supported" 1 "mist.rad:2:1: mist g" "" "$gtrace" mist.rad
 printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
-fails "an undefined modifier" 1 "undefined.rad:1:1" "" "$gtrace" undefined.rad
+fails "an undefined modifier" 1 "undefined.rad:1:1: sphere s: undefined modifier" "" "$gtrace" undefined.rad
+printf '\n!cat undefined.rad\n' >inner.rad
+printf '  !xform -n a inner.rad\n' >outer.rad
+fails "a mistake in what commands bring in" 1 \
+    '`!cat undefined.rad`:1:1: sphere a.s: undefined modifier "nobody" (from inner.rad:2:1, from `!xform -n a inner.rad`, from outer.rad:1:3)' \
+    "" "$gtrace" outer.rad
+printf '!xform -n a endless.rad\n' >endless.rad
+fails "a scene within itself" 1 "endless.rad: brings in itself" "" "$gtrace" endless.rad
+printf 'void brightfunc f 2 sin(Px . 0 0 f plastic p 0 0 5 1 1 1 0 0 p sphere s 0 0 4 0 0 0 1\n' >formula.rad
+fails "a wrong expression" 1 "formula.rad:1:1: brightfunc f: in the expression 'sin(Px'" "" "$gtrace" formula.rad
 printf '#?RADIANCE\noconv room.rad\nFORMAT=Radiance_octree\n\n\001\002' >room.oct
 fails "a damaged octree" 1 "room.oct: octree: incompatible format (byte " "" "$gtrace" room.oct
 fails "a failing command" 1 "exit 3" "" "$gtrace" '!exit 3'

@@ -164,16 +164,16 @@ static void reports_errors_with_places(void **state) {
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"\n none sphere s 0 0 4 0 0 0 1", "error: scene.rad:2:2: undefined modifier \"none\"\n"},
+        {"\n none sphere s 0 0 4 0 0 0 1", "error: scene.rad:2:2: sphere s: undefined modifier \"none\"\n"},
         {"void sphere a 0 0 4 0 0 0 1\na sphere b 0 0 4 0 0 0 1",
-         "scene.rad:2:1: modifier \"a\" is a surface (a sphere)"},
-        {"void alias a b", "scene.rad:1:1: undefined alias target \"b\""},
-        {"void sphere a 0 0 4 0 0 0 1\nvoid alias b a", "scene.rad:2:1: alias target \"a\" is a surface"},
-        {"inherit sphere a 0 0 4 0 0 0 1", "only an alias can have the modifier \"inherit\""},
+         "scene.rad:2:1: sphere b: modifier \"a\" is a surface (a sphere)"},
+        {"void alias a b", "scene.rad:1:1: alias a: undefined alias target \"b\""},
+        {"void sphere a 0 0 4 0 0 0 1\nvoid alias b a", "scene.rad:2:1: alias b: alias target \"a\" is a surface"},
+        {"inherit sphere a 0 0 4 0 0 0 1", "sphere a: only an alias can have the modifier \"inherit\""},
         {"void light void 0 0 3 1 1 1", "scene.rad:1:12: \"void\" cannot be the name of a modifier"},
         {"void light inherit 0 0 3 1 1 1", "\"inherit\" cannot be the name of a modifier"},
         {"void light 'a\tb' 0 0 3 1 1 1", "scene.rad:1:12: illegal tab or other control character in name \"a?b\""},
-        {"'vo\tid' light a 0 0 3 1 1 1", "scene.rad:1:1: undefined modifier \"vo?id\""},
+        {"'vo\tid' light a 0 0 3 1 1 1", "scene.rad:1:1: light a: undefined modifier \"vo?id\""},
         {"void light a -1 0 3 1 1 1", "scene.rad:1:14: light a: \"-1\" is not a number of string arguments"},
         {"void light a 0 0 3.5 1 1 1", "scene.rad:1:18: light a: \"3.5\" is not a number of real arguments"},
         {"void light a 0 2 7 8 3 1 1 1", "scene.rad:1:1: light a: 2 integer arguments where there must be none"},
@@ -183,16 +183,17 @@ static void reports_errors_with_places(void **state) {
         {"void light a 0 0 3 1 nan 1", "\"nan\" is not a number"},
         {"void light a 0 0 3 1 1e999 1", "\"1e999\" is not a number"},
         {"void light a 0 0 3 1 1e 1", "\"1e\" is not a number"},
-        {"void light a 0 0 999999999 1 1", "scene.rad:1:1: ends before the primitive's last real argument"},
-        {"void light a 999999999 1 1", "scene.rad:1:1: ends before the primitive's last string argument"},
+        {"void light a 0 0 999999999 1 1", "scene.rad:1:1: light a: the text ends before its last real argument"},
+        {"void light a 999999999 1 1", "scene.rad:1:1: light a: the text ends before its last string argument"},
         {"void light a 0 0 00000000000000000000000000000003 1 1 1",
          "\"00000000000000000000000000000003\" is too long for a number of real arguments"},
         {"void light a 0 0 999999999999 1 1", "\"999999999999\" is not a number of real arguments"},
         {"void light a 999999999999 1 1", "\"999999999999\" is not a number of string arguments"},
-        {"void", "scene.rad:1:1: ends before the primitive's type"},
+        {"void", "scene.rad:1:1: the text ends before the primitive's type"},
         {"void light", "ends before the primitive's name"},
-        {"void light a", "ends before the primitive's number of string arguments"},
+        {"void light a", "light a: the text ends before its number of string arguments"},
         {"void light 'a 0 0 3 1 1 1", "scene.rad:1:12: quote without end"},
+        {"void light a 'b 0 0 3 1 1 1", "scene.rad:1:14: light a: quote without end"},
         {"void \033[31mlight a 0 0 0", "unknown type \"?[31mlight\""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
@@ -319,9 +320,56 @@ static void failing_commands_are_errors(void **state) {
 static void recursion_is_bounded(void **state) {
     (void)state;
     messages m;
-    bad_text("!cat scene.rad\n", &m);
-    assert_contains(m.text, "nested more than 64 deep");
-    assert_int_equal(m.errors, 1);
+    static const char *const texts[] = {"!cat scene.rad\n", "!xform -t 1 0 0 scene.rad\n",
+                                        "\n!cat scene.rad | xform -n a\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        bad_text(texts[i], &m);
+        assert_contains(m.text, "scene.rad");
+        assert_contains(m.text, ": brings in itself: files and commands are nested more than 64 deep (from ");
+        assert_contains(m.text, " more ..., from ");
+        assert_int_equal(m.errors, 1);
+        assert_true(m.length < 600);
+    }
+}
+
+static void tells_the_commands_on_the_way(void **state) {
+    (void)state;
+    messages m;
+    write_file("part.rad", "void light l 0 0 3 1 1 1\nl sphere s 0 0 3 0 0 0\n");
+    write_file("parts.rad", "\n  !cat part.rad\n");
+    bad_text("!xform -n a parts.rad", &m);
+    assert_string_equal(m.text, "error: `!cat part.rad`:2:1: sphere s: 3 real arguments, but it needs 4 (from "
+                                "parts.rad:2:3, from `!xform -n a parts.rad`, from scene.rad:1:1)\n");
+    bad_text("!cat part.rad | xform -n a", &m);
+    assert_contains(m.text,
+                    "error: `!cat part.rad`:2:1: sphere s: 3 real arguments, but it needs 4 (from scene.rad:1:1)");
+}
+
+static void warns_of_what_means_nothing(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"void sphere s 1 a 0 4 0 0 0 1",
+         "warning: scene.rad:1:1: sphere s: string argument 1, \"a\", has no meaning\n"},
+        {"void light l 0 0 3 1 1 1 void plastic p 2 a b 0 5 1 1 1 0 0",
+         "warning: scene.rad:1:26: plastic p: string argument 1, \"a\", has no meaning\n"},
+        {"void illum i 1 void 0 3 1 1 1", ""},
+        {"void mirror i 2 void x 0 3 1 1 1",
+         "warning: scene.rad:1:1: mirror i: string argument 2, \"x\", has no meaning\n"},
+        {"void mist i 3 a b c 0 0", ""},
+        {"void instance i 1 a.oct 0 1 5", "warning: scene.rad:1:1: instance i: real arguments have no meaning\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_file("scene.rad", cases[i].text);
+        const char *name = "scene.rad";
+        messages m;
+        graze_report report = messages_report(&m);
+        rad_scene *scene;
+        assert_int_equal(rad_scene_read(&scene, &name, 1, &report), GRAZE_OK);
+        assert_string_equal(m.text, cases[i].message);
+        rad_scene_destroy(scene);
+    }
 }
 
 static void messages_of_primitives(void **state) {
@@ -444,6 +492,8 @@ int main(void) {
         cmocka_unit_test(runs_commands),
         cmocka_unit_test(failing_commands_are_errors),
         cmocka_unit_test(recursion_is_bounded),
+        cmocka_unit_test(tells_the_commands_on_the_way),
+        cmocka_unit_test(warns_of_what_means_nothing),
         cmocka_unit_test(messages_of_primitives),
         cmocka_unit_test(numbers_round_correctly),
         cmocka_unit_test(survives_mutations),
