@@ -294,14 +294,18 @@ format:
 	@scripts/install-dependencies lint
 	clang-format -i $(C_FILES)
 
-# lint: layout, clang-tidy, cppcheck; all must be clean
+# lint: layout, clang-tidy, cppcheck; all run, and all must be clean
 # (clang-tidy 14 confuses the va_lists of files that it checks in one run.)
 lint:
 	@scripts/install-dependencies build test lint
-	clang-format --dry-run -Werror $(C_FILES)
-	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -I FILE clang-tidy --quiet FILE -- $(ALL_CFLAGS) -Itest
+	failed=; \
+	clang-format --dry-run -Werror $(C_FILES) || failed="$$failed clang-format"; \
+	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -I FILE clang-tidy --quiet FILE -- $(ALL_CFLAGS) -Itest || \
+	    failed="$$failed clang-tidy"; \
 	cppcheck --quiet --std=c11 --language=c --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
-	    --suppress=missingIncludeSystem -DGRAZE_VERSION='"$(VERSION)"' -Iinclude -Isrc $(filter src/%.c,$(C_FILES))
+	    --suppress=missingIncludeSystem -DGRAZE_VERSION='"$(VERSION)"' -Iinclude -Isrc $(filter src/%.c,$(C_FILES)) || \
+	    failed="$$failed cppcheck"; \
+	[ -z "$$failed" ] || { echo "not clean:$$failed"; false; }
 
 # --- Installation ----------------------------------------------------------------------------------------------------
 

@@ -105,7 +105,8 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  *
  * Samples come in two halves. Each goes on until the other has found that the answer will have the error asked for:
  * a half that judged itself would stop where it happens to agree with itself, and be wrong more often than it says.
- * What both together state is then mostly below the error asked for, and at most 1.5 times it if `converged`.
+ * What both together state is then mostly below the error asked for, seldom half as much again, and several times it
+ * where few samples find most of the light.
  *
  * What unshadowed lights throw directly on the first point that is no mirror is integrated rather than sampled
  * (graze/brdf_light.h). A light that is found to be seen wholly from there, or not at all, is not sampled; where all

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fingerprint.h"
 #include "base/whole_file.h"
 #include "cal/own_files.h"
 #include "cal/scene_names.h"
@@ -17,7 +18,7 @@ cal_program *cal_program_create(void) {
         arena_destroy(memory);
         return NULL;
     }
-    *program = (cal_program){.memory = memory, .symbols = {.memory = memory}};
+    *program = (cal_program){.memory = memory, .symbols = {.memory = memory}, .fingerprint = FINGERPRINT_OF_NOTHING};
     return program;
 }
 
@@ -101,6 +102,8 @@ static graze_status add_statements(cal_program *program, const char *context, co
     if (!keep_place(program, &kept))
         return report_out_of_memory(report);
     kept.parent = where ? where->parent : NULL;
+    program->fingerprint = fingerprint_add(program->fingerprint, context, strlen(context) + 1);
+    program->fingerprint = fingerprint_add(program->fingerprint, text, length);
     cal_parse_begin(&p, text, length, program->memory, report);
     p.where = kept;
     while (!status && found) {
@@ -159,6 +162,10 @@ graze_status cal_program_use_file(cal_program *program, const char *name, const 
     file->next = program->files;
     program->files = file;
     return file->status = read_file(program, context, name, finder, where, report);
+}
+
+uint64_t cal_program_fingerprint(const cal_program *program) {
+    return program->fingerprint;
 }
 
 bool cal_program_defines(cal_program *program, const char *file, const char *name) {

@@ -9,6 +9,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/report.h"
 
@@ -83,6 +84,9 @@ graze_status cal_program_add_text(cal_program *, const char *file, const char *t
  * no file. */
 graze_status cal_program_use_file(cal_program *, const char *name, const cal_finder *, const place *where,
                                   const graze_report *);
+
+/* A number (base/fingerprint.h) of all the text that was read, and of the contexts that it was read into. */
+uint64_t cal_program_fingerprint(const cal_program *);
 
 /* Whether a name used in the context of `file` is defined, as a variable or as a function. */
 bool cal_program_defines(cal_program *, const char *file, const char *name);

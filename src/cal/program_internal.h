@@ -15,6 +15,7 @@ struct cal_program {
     arena *memory;
     cal_symbols symbols;
     cal_file *files; /* those that were read */
+    uint64_t fingerprint;
 };
 
 /* Resolves the names of a tree that the parser made, and computes constants. `function` is the statement that the tree

@@ -381,13 +381,12 @@ static graze_status build_scene(geometry *g, survey *s, int threads, const graze
 static bool number_surfaces(const geometry *g, geometry_tree *tree) {
     int64_t next = (int64_t)tree->shape_count;
     for (size_t i = 0; i < tree->placement_count; i++) {
-        const geometry_tree *copied = &g->trees[tree->placements[i].group];
         tree->firsts[i] = next;
-        next += copied->firsts[copied->placement_count];
+        next += g->trees[tree->placements[i].group].surface_count;
         if (next > INT64_MAX / 2)
             return false;
     }
-    tree->firsts[tree->placement_count] = next;
+    tree->surface_count = next;
     return true;
 }
 

@@ -70,7 +70,8 @@ typedef struct geometry_tree {
     size_t curved_count;
     uint32_t *placed; /* the copies that are not empty, by Embree's primitive numbers */
     size_t placed_count;
-    int64_t *firsts; /* by copy: the number of its first surface; behind them, how many there are in all */
+    int64_t *firsts;                  /* by copy: the number of its first surface */
+    int64_t surface_count;            /* of its own and of all copies */
     unsigned triangles_id, placed_id; /* Embree's, or RTC_INVALID_GEOMETRY_ID */
 } geometry_tree;
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fingerprint.h"
 #include "image/image.h"
 #include "rad/path.h"
 
@@ -182,4 +183,35 @@ graze_status material_library_picture(material_library *library, const char *nam
     }
     *picture = &entry->picture;
     return entry->status;
+}
+
+static uint64_t add_grid(uint64_t f, const rad_data *grid) {
+    f = fingerprint_add(f, &grid->dimensions, sizeof grid->dimensions);
+    for (int d = 0; d < grid->dimensions; d++) {
+        const rad_data_axis *axis = &grid->axes[d];
+        f = fingerprint_add(f, &axis->begin, sizeof axis->begin);
+        f = fingerprint_add(f, &axis->length, sizeof axis->length);
+        f = fingerprint_add(f, &axis->count, sizeof axis->count);
+        if (axis->places)
+            f = fingerprint_add(f, axis->places, axis->count * sizeof *axis->places);
+    }
+    return f;
+}
+
+static uint64_t add_plane(uint64_t f, const rad_data *grid, const float *plane) {
+    size_t count = 1;
+    for (int d = 0; d < grid->dimensions; d++)
+        count *= grid->axes[d].count;
+    return fingerprint_add(f, plane, count * sizeof *plane);
+}
+
+uint64_t material_library_fingerprint(const material_library *library) {
+    uint64_t f = library->program ? cal_program_fingerprint(library->program) : FINGERPRINT_OF_NOTHING;
+    for (const data_entry *e = library->data; e; e = e->next)
+        if (!e->status)
+            f = add_plane(add_grid(f, &e->data), &e->data, e->data.values);
+    for (const picture_entry *e = library->pictures; e; e = e->next)
+        for (int c = 0; c < 3 && !e->status; c++)
+            f = add_plane(add_grid(f, &e->picture.grid), &e->picture.grid, e->picture.planes[c]);
+    return f;
 }

@@ -36,4 +36,7 @@ graze_status material_library_data(material_library *, const char *name, const r
 graze_status material_library_picture(material_library *, const char *name, const rad_primitive *,
                                       const material_picture **);
 
+/* A number (base/fingerprint.h) of all that was read: function files, and the values of data files and pictures. */
+uint64_t material_library_fingerprint(const material_library *);
+
 #endif

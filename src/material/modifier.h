@@ -61,8 +61,8 @@ material_effect material_modify(const material_modifier *, const material_ray *)
 /* How many pixels the largest picture has that a chain looks at, or values the largest data; 0: none. */
 size_t material_modifiers_pixels(const material_modifier *);
 
-/* The share of the foreground in a mixture, 0 .. 1. */
-double material_mixture_share(const material_modifier *, const material_ray *);
+/* The share of the foreground in a mixture, 0 .. 1. False: a compute error, of which the user is told once. */
+bool material_mixture_share(const material_modifier *, const material_ray *, double *share);
 
 /* The normal with a perturbation, unit: leaned back where the ray would otherwise see its other side. `normal` is the
  * surface's own on the side that the ray comes from, the perturbation as for that side. */

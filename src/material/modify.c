@@ -32,11 +32,11 @@ static bool compute(const material_modifier *m, const material_ray *ray, double 
     return material_function_values(&m->values, &m->owner, channels, values);
 }
 
-double material_mixture_share(const material_modifier *m, const material_ray *ray) {
-    double share;
-    if (!compute(m, ray, &share))
-        return 0;
-    return share < NOTHING ? 0 : share > 1 - NOTHING ? 1 : share;
+bool material_mixture_share(const material_modifier *m, const material_ray *ray, double *share) {
+    if (!compute(m, ray, share))
+        return false;
+    *share = *share < NOTHING ? 0 : *share > 1 - NOTHING ? 1 : *share;
+    return true;
 }
 
 static void mix(const material_modifier *m, const material_ray *ray, material_effect *effect) {

@@ -152,15 +152,28 @@ const char *checkpoint_command(const checkpoint *c) {
     return c->command;
 }
 
+static bool tells_of_scene(const char *line) {
+    static const char scene[] = "scene ";
+    return strncmp(line, scene, sizeof scene - 1) == 0;
+}
+
+/* Of a line of the question that differs. Of a scene it only has a number, which says nothing to readers. */
+static graze_status complain(const checkpoint *c, const char *then, int then_length, const char *now, int now_length,
+                             const graze_report *report) {
+    if (tells_of_scene(then) && tells_of_scene(now))
+        return refuse(c, "this picture was begun with another scene: it, or a file that it names, has changed", report);
+    return report_error(report, &(place){.file = c->file},
+                        "this picture was begun with '%.*s' and cannot go on with '%.*s'", then_length, then,
+                        now_length, now);
+}
+
 /* Compares line by line. */
 static graze_status check_question(const checkpoint *c, const char *now, const graze_report *report) {
     const char *then = c->question;
     while (*then || *now) {
         size_t then_length = strcspn(then, "\n"), now_length = strcspn(now, "\n");
         if (then_length != now_length || memcmp(then, now, now_length) != 0)
-            return report_error(report, &(place){.file = c->file},
-                                "this picture was begun with '%.*s' and cannot go on with '%.*s'", (int)then_length,
-                                then, (int)now_length, now);
+            return complain(c, then, (int)then_length, now, (int)now_length, report);
         then += then_length + (then[then_length] == '\n');
         now += now_length + (now[now_length] == '\n');
     }

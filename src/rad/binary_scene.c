@@ -112,7 +112,7 @@ static graze_status read_head(binary_scene *s, unsigned type, rad_raw *raw) {
     if (bytes->status)
         return bytes->status;
     raw->type = s->types[type];
-    raw->modifier = modifier < 0 ? "void" : s->names[modifier];
+    raw->modifier = modifier < 0 || !s->names ? "void" : s->names[modifier];
     return keep_text(s, name, &raw->id);
 }
 

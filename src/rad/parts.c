@@ -219,7 +219,7 @@ static graze_status read_parts(rad_linker *l) {
     rad_name_table_free(&files);
     if (l->reader.status)
         status = l->reader.status;
-    return status || scene->part_count == 1 ? status : sort_parts(l);
+    return status || scene->part_count <= 1 ? status : sort_parts(l);
 }
 
 graze_status rad_scene_read_parts(rad_scene *scene, const graze_report *report) {

@@ -23,6 +23,10 @@ int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
 /* Whether some light goes straight through some of it. */
 bool scene_material_is_pane(const graze_scene *, const scene_material *);
 
+/* The shape of a surface, with what its material says of it. Its material; or a negative number where there is no
+ * surface (reported). */
+int scene_read_shape(scene_builder *, int primitive, shape *);
+
 /* Builds what the instances and meshes of all parts are copies of; graze_scene.parts are then filled in. */
 void scene_add_copies(scene_builder *);
 

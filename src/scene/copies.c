@@ -42,19 +42,11 @@ static bool has_shape(const rad_primitive *p) {
 }
 
 static void add_surface(scene_builder *b, scene_part *part, int primitive) {
-    graze_scene *scene = b->scene;
-    const rad_primitive *p = &scene->primitives[primitive];
-    int material = scene_material_of_surface(b, p);
     shape *s = &part->shapes[part->surface_count];
-    bool degenerate = false;
-    graze_status status = shape_from_primitive(s, &degenerate, p, scene->memory, b->report);
-    if (status)
-        scene_fail(b, status);
-    if (status || degenerate || material < 0)
-        return;
-    s->shines = scene->materials[material].emits;
-    s->passes = scene_material_is_pane(scene, &scene->materials[material]);
-    part->surfaces[part->surface_count++] = make_surface(b, primitive, material, s, p);
+    int material = scene_read_shape(b, primitive, s);
+    if (material >= 0)
+        part->surfaces[part->surface_count++] =
+            make_surface(b, primitive, material, s, &b->scene->primitives[primitive]);
 }
 
 static bool allocate_surfaces(scene_part *part, size_t count) {

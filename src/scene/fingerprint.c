@@ -33,8 +33,10 @@ static uint64_t add_mesh(uint64_t f, const rad_mesh *mesh) {
     f = fingerprint_add(f, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
     if (mesh->normals)
         f = fingerprint_add(f, mesh->normals, points * sizeof *mesh->normals);
-    if (mesh->uv)
+    if (mesh->uv) {
         f = fingerprint_add(f, mesh->uv, points * sizeof *mesh->uv);
+        f = fingerprint_add(f, mesh->has_uv, points);
+    }
     return f;
 }
 
@@ -53,5 +55,7 @@ uint64_t scene_fingerprint(const graze_scene *scene) {
         f = add_primitive(f, &primitives[i]);
     for (size_t i = 0; i < part_count; i++)
         f = add_part(f, &parts[i]);
-    return f;
+    return scene->modifiers
+               ? add_number(f, (int64_t)material_library_fingerprint(material_modifiers_library(scene->modifiers)))
+               : f;
 }

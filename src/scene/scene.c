@@ -202,6 +202,22 @@ static void check_orientation(const scene_builder *b, const rad_primitive *surfa
                               "lies across the orientation vector of its material, which is then isotropic");
 }
 
+int scene_read_shape(scene_builder *b, int primitive, shape *s) {
+    graze_scene *scene = b->scene;
+    const rad_primitive *p = &scene->primitives[primitive];
+    int material = scene_material_of_surface(b, p);
+    bool degenerate = false;
+    graze_status status = shape_from_primitive(s, &degenerate, p, scene->memory, b->report);
+    if (status != GRAZE_OK)
+        scene_fail(b, status);
+    if (status != GRAZE_OK || degenerate || material < 0)
+        return -1;
+    check_orientation(b, p, s, &scene->materials[material]);
+    s->shines = scene->materials[material].emits;
+    s->passes = scene_material_is_pane(scene, &scene->materials[material]);
+    return material;
+}
+
 /* Flat mirrors, in which lights are sampled. */
 static void note_mirror(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
@@ -221,14 +237,9 @@ static void note_mirror(scene_builder *b, int index) {
 
 static void add_shape(scene_builder *b, int primitive) {
     graze_scene *scene = b->scene;
-    const rad_primitive *p = &scene->primitives[primitive];
-    int material = scene_material_of_surface(b, p);
     size_t index = scene->surface_count;
-    bool degenerate = false;
-    graze_status status = shape_from_primitive(&scene->shapes[index], &degenerate, p, scene->memory, b->report);
-    if (status != GRAZE_OK)
-        scene_fail(b, status);
-    if (status != GRAZE_OK || degenerate || material < 0)
+    int material = scene_read_shape(b, primitive, &scene->shapes[index]);
+    if (material < 0)
         return;
     scene->surfaces[index] = (scene_surface){
         .primitive = primitive,
@@ -237,10 +248,7 @@ static void add_shape(scene_builder *b, int primitive) {
         .no_ambient = scene_leaves_ambient_out(b->settings, scene_modifier_name(scene, primitive)),
     };
     scene->surface_count++;
-    check_orientation(b, p, &scene->shapes[index], &scene->materials[material]);
-    scene->shapes[index].shines = scene->materials[material].emits;
     note_mirror(b, (int)index);
-    scene->shapes[index].passes = scene_material_is_pane(scene, &scene->materials[material]);
     if (!scene->materials[material].emits)
         return;
     if (!shape_prepare_light(&scene->shapes[index], scene->memory))

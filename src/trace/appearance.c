@@ -209,6 +209,9 @@ static void prepare_wgmd(const path *p, const path_hit *hit, const encounter *of
     vertex_find_ambient(p, v, &threshold);
 }
 
+/* What a mixture is where its share cannot be computed, as in Radiance. */
+static const scene_material black = {.reflector = {.kind = GRAZE_PLASTIC}};
+
 static void prepare(const path *p, const path_hit *hit, const encounter *of, const scene_material *m, material_effect e,
                     vertex *v) {
     const scene_material *materials = p->context->scene->materials;
@@ -226,7 +229,11 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
         prepare_reflector(p, hit, of, m, &e, v);
         return;
     }
-    double share = material_mixture_share(m->mixture, &of->ray);
+    double share;
+    if (!material_mixture_share(m->mixture, &of->ray, &share)) {
+        prepare_reflector(p, hit, of, &black, &e, v);
+        return;
+    }
     vertex fore = *v, back = fore;
     if (share > 0)
         prepare(p, hit, of, &materials[m->fore], e, &fore);
@@ -252,9 +259,10 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
     for (;;) {
         if (m->modifiers)
             e = add_effect(m->modifiers, &of.ray, e);
-        if (!m->mixture)
+        double share;
+        if (!m->mixture || !material_mixture_share(m->mixture, &of.ray, &share))
             return lean(hit, &of, &e);
-        m = &scene->materials[material_mixture_share(m->mixture, &of.ray) >= 0.5 ? m->fore : m->back];
+        m = &scene->materials[share >= 0.5 ? m->fore : m->back];
     }
 }
 
@@ -265,7 +273,9 @@ static rgb straight_through(const scene_material *materials, const scene_materia
     if (m->modifiers)
         e = add_effect(m->modifiers, &of->ray, e);
     if (m->mixture) {
-        double share = material_mixture_share(m->mixture, &of->ray);
+        double share;
+        if (!material_mixture_share(m->mixture, &of->ray, &share))
+            return rgb_gray(0);
         rgb fore = straight_through(materials, &materials[m->fore], hit, of, e);
         return blend(share, fore, straight_through(materials, &materials[m->back], hit, of, e));
     }

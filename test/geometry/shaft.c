@@ -238,11 +238,11 @@ static void check_sight(const world *w, dice *d, const geometry_sight *sight, sc
     geometry_visibility found = geometry_sight_of(w->geometry, sight);
     tally t = ask_rays(w, d, sight, RAYS);
     if (found == GEOMETRY_CLEAR && t.stopped)
-        fail_msg("light %d is clear from %.17g %.17g %.17g on %d, but %d of %d rays are stopped", sight->light,
-                 sight->point.x, sight->point.y, sight->point.z, sight->from, t.stopped, t.rays);
+        fail_msg("light %d is clear from %.17g %.17g %.17g on %jd, but %d of %d rays are stopped", sight->light,
+                 sight->point.x, sight->point.y, sight->point.z, (intmax_t)sight->from, t.stopped, t.rays);
     if (found == GEOMETRY_BLOCKED && t.stopped < t.rays)
-        fail_msg("light %d is hidden from %.17g %.17g %.17g on %d, but %d of %d rays get there", sight->light,
-                 sight->point.x, sight->point.y, sight->point.z, sight->from, t.rays - t.stopped, t.rays);
+        fail_msg("light %d is hidden from %.17g %.17g %.17g on %jd, but %d of %d rays get there", sight->light,
+                 sight->point.x, sight->point.y, sight->point.z, (intmax_t)sight->from, t.rays - t.stopped, t.rays);
     if (t.rays < RAYS / 2)
         return;
     sum->seen += t.stopped == 0;

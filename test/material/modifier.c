@@ -200,7 +200,9 @@ static void test_mixture_of_materials(void **state) {
     assert_non_null(s.chain.mixture);
     assert_int_equal(s.chain.mixture->fore, 0);
     assert_int_equal(s.chain.mixture->back, 1);
-    assert_close(material_mixture_share(s.chain.mixture, &ray), 0.3);
+    double share;
+    assert_true(material_mixture_share(s.chain.mixture, &ray, &share));
+    assert_close(share, 0.3);
     assert_close(material_modify(s.chain.modifiers, &ray).color.r, 2);
     setting_end(&s);
 }

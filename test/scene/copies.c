@@ -130,6 +130,18 @@ static void modifiers_of_instances_replace_those_within(void **state) {
     graze_scene_destroy(scene);
 }
 
+static void a_surface_across_its_orientation_is_warned_about_in_copies(void **state) {
+    (void)state;
+    write_octree("across.oct", "across.rad",
+                 "void metal2 m 4 0 0 1 . 0 6 1 1 1 .5 .1 .2\n"
+                 "m ring r 0 0 8 0 0 0 0 0 1 0 1 m ring s 0 0 8 0 0 0 0 1 0 0 1\n",
+                 3);
+    graze_scene *scene = load(BASE "void instance x 1 across.oct 0 0\n");
+    assert_non_null(strstr(messages, "ring r: lies across"));
+    assert_null(strstr(messages, "ring s"));
+    graze_scene_destroy(scene);
+}
+
 static void lights_in_copies_are_only_seen(void **state) {
     (void)state;
     write_octree("lamp.oct", "lamp.rad",
@@ -208,6 +220,7 @@ static void fingerprints_know_all_files(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(modifiers_of_instances_replace_those_within),
+        cmocka_unit_test(a_surface_across_its_orientation_is_warned_about_in_copies),
         cmocka_unit_test(lights_in_copies_are_only_seen),
         cmocka_unit_test(meshes_need_materials),
         cmocka_unit_test(normals_of_meshes_turn_with_them),

@@ -122,12 +122,23 @@ static void a_pattern_of_1_changes_nothing(void **state) {
     assert_memory_equal(&plain, &one, sizeof plain);
 }
 
+/* Neither its first material nor its second, bright as they are. */
+static void mixtures_without_a_share_are_black(void **state) {
+    (void)state;
+    answer lost = answer_of("void plastic a 0 0 5 .8 .8 .8 .1 0 void metal b 0 0 5 .8 .8 .8 .8 .3 "
+                            "void mixfunc m 4 a b sqrt(-1-Px*Px) . 0 0",
+                            GRAZE_STRATEGY_MIS, 1, 0.3);
+    assert_non_null(strstr(messages, "mixfunc m: compute error"));
+    assert_true(rgb_is_black(lost.value));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strategies_agree),
         cmocka_unit_test(mixtures_are_means),
         cmocka_unit_test(a_function_without_weight_is_diffuse),
         cmocka_unit_test(a_pattern_of_1_changes_nothing),
+        cmocka_unit_test(mixtures_without_a_share_are_black),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
