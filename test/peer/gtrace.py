@@ -113,9 +113,16 @@ class Case:
         # and letters other than v have none.
         repeat = 32
         data = np.repeat(self.rays, repeat, axis=0).tobytes()
-        options = [*self.options, *self.own_options, "--samples", str(self.samples // repeat), "--seed", SEED, "-o" + self.letter, "-ff"]
-        values = np.frombuffer(gtrace(self.scene, options, data), "<f4").reshape(len(self.rays), repeat, 3).astype(float)
-        return values.mean(1), values.std(1, ddof=1) / np.sqrt(repeat), repeat - 1
+        letters = "ve" if self.letter == "v" else self.letter
+        options = [*self.options, *self.own_options, "--samples", str(self.samples // repeat), "--seed", SEED, "-o" + letters, "-ff"]
+        answers = np.frombuffer(gtrace(self.scene, options, data), "<f4").reshape(len(self.rays), repeat, -1, 3).astype(float)
+        values, stated = answers[:, :, 0], answers[:, :, -1]
+        scatter = values.std(1, ddof=1)
+        if self.letter == "v":
+            # A choice between two things that are known, by stratified numbers, falls out alike almost always: that there is no
+            # scatter then tells nothing.
+            scatter = np.where(scatter > 0, scatter, np.sqrt((stated**2).mean(1)))
+        return values.mean(1), scatter / np.sqrt(repeat), repeat - 1
 
     def results(self, radiance):
         r, r_error, r_freedom = self.radiance(radiance)
