@@ -1,4 +1,5 @@
-/* Rendering: pixels are estimates, computed on all threads; what they share is an irradiance cache. */
+/* Rendering: pixels are estimates, computed on all threads; what they share is an irradiance cache, and light on
+ * surfaces. */
 #include "picture/picture.h"
 
 #include <stdlib.h>
@@ -28,6 +29,7 @@ typedef struct pixel {
     path_memory *memory;
     bool cast; /* where all samples are of one ray: it has been */
     path_hit first;
+    const shared_pixel *shared; /* null: nothing is known */
 } pixel;
 
 static bool is_stopped(const rendering *p) {
@@ -56,14 +58,14 @@ static bool sample_camera(const picture_settings *s, sampler *points, camera_sam
 }
 
 /* What a sample's ray hits first. False: there is no such ray. */
-static bool cast_sample(pixel *p, const path_context *context, sampler *points, estimate_luck *luck) {
-    camera_sample at;
+static bool cast_sample(pixel *p, const path_context *context, sampler *points, camera_sample *at,
+                        estimate_luck *luck) {
     graze_ray ray;
     if (p->cast)
         return true;
-    bool spread = sample_camera(&p->picture->settings, points, &at);
+    bool spread = sample_camera(&p->picture->settings, points, at);
     *luck = spread ? ESTIMATE_PLACE : ESTIMATE_EXACT;
-    if (!camera_ray(&p->picture->settings, p->column, p->row, &at, &ray))
+    if (!camera_ray(&p->picture->settings, p->column, p->row, at, &ray))
         return false;
     p->first = path_cast(context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
     p->cast = !spread;
@@ -74,9 +76,14 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
     pixel *p = user;
     path_context context = {
         .scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory, .cache = p->picture->cache};
+    camera_sample at = camera_center;
+    path_indirect known;
     *luck = ESTIMATE_EXACT;
-    if (!cast_sample(p, &context, points, luck))
+    if (!cast_sample(p, &context, points, &at, luck))
         return (path_sample){.noisy = false};
+    if (p->shared && shared_light_at(p->picture->shared, p->shared, &p->first, at.x - camera_center.x,
+                                     at.y - camera_center.y, &known))
+        context.indirect = &known;
     path_sample sample = path_radiance(&context, &p->first, points);
     if (sample.noisy)
         *luck = sample.searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
@@ -94,6 +101,9 @@ static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *s
     graze_answer answer;
     path_memory known = {.alike = !is_spread(&p->picture->settings)};
     pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .memory = &known};
+    shared_pixel shared;
+    if (p->picture->shared && shared_light_find(p->picture->shared, p->column, p->row, &shared))
+        remembering.shared = &shared;
     estimate_with_parts(settings, number, least, sample_pixel, &remembering, &answer, parts);
     return answer;
 }
@@ -232,6 +242,25 @@ static graze_answer survey_pixel(void *user, const graze_trace_settings *setting
     return estimate_pixel(&at, settings, SURVEY_NUMBERS, 0, NULL);
 }
 
+static void forget_shared(rendering *p) {
+    shared_light_destroy(p->shared);
+    irradiance_cache_destroy(p->cache);
+    p->shared = NULL;
+    p->cache = NULL;
+}
+
+/* What pixels share is made anew if making it was interrupted. */
+static graze_status build_shared(rendering *p, const graze_report *report) {
+    if (p->cache)
+        return GRAZE_OK;
+    graze_status status = build_cache(p, report);
+    if (status == GRAZE_OK)
+        status = shared_light_build(&p->shared, p->scene, &p->trace, &p->settings, p->cache, &p->stopped, report);
+    if (status != GRAZE_OK || is_stopped(p))
+        forget_shared(p);
+    return status;
+}
+
 graze_status picture_begin(rendering **out, const graze_scene *scene, const graze_trace_settings *trace,
                            const picture_settings *settings, const graze_report *report) {
     rendering *p = *out = calloc(1, sizeof *p);
@@ -259,7 +288,7 @@ graze_status picture_begin(rendering **out, const graze_scene *scene, const graz
 void picture_destroy(rendering *p) {
     if (!p)
         return;
-    irradiance_cache_destroy(p->cache);
+    forget_shared(p);
     survey_free(&p->survey);
     film_free(&p->film);
     free(p);
@@ -274,15 +303,12 @@ graze_status picture_render(rendering *p, const graze_report *report) {
         p->trace.floor = fmax(p->trace.floor, PICTURE_FLOOR * mean);
     }
     atomic_store(&p->floor_known, true);
-    if (!p->cache) {
-        graze_status status = build_cache(p, report);
-        if (status != GRAZE_OK || is_stopped(p))
-            return status;
-    }
+    graze_status status = build_shared(p, report);
+    if (status != GRAZE_OK || is_stopped(p))
+        return status;
     if (!p->trace.samples && !p->survey.least) {
         const picture_settings *s = &p->settings;
-        graze_status status =
-            survey_make(&p->survey, s->width, s->height, &p->trace, s->threads, survey_pixel, p, report);
+        status = survey_make(&p->survey, s->width, s->height, &p->trace, s->threads, survey_pixel, p, report);
         if (status != GRAZE_OK)
             return status;
         if (is_stopped(p)) {

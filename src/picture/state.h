@@ -4,6 +4,7 @@
 
 #include "picture/film.h"
 #include "picture/order.h"
+#include "picture/shared_light.h"
 #include "picture/survey.h"
 #include "trace/irradiance_cache.h"
 
@@ -13,6 +14,7 @@ struct rendering {
     atomic_bool floor_known;
     const graze_scene *scene;
     film film;
+    shared_light *shared;    /* null: none */
     irradiance_cache *cache; /* null: none */
     picture_survey survey;
     order order;

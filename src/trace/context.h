@@ -9,6 +9,7 @@
 #include "trace/path_memory.h"
 
 struct path_observer;
+struct path_indirect;
 
 /* What one path needs of its surroundings. */
 typedef struct path_context {
@@ -17,6 +18,7 @@ typedef struct path_context {
     path_memory *memory;                  /* of paths; null only beside an observer or a record */
     const struct path_observer *observer; /* is told of every ray (trace/observer.h); null: nobody is */
     const struct irradiance_cache *cache; /* null: none */
+    const struct path_indirect *indirect; /* what is known where the path begins (trace/path.h); null: nothing */
     struct irradiance_record *record;     /* not null: all that is asked is where the first diffuse reflection leads */
 } path_context;
 

@@ -40,6 +40,7 @@ typedef struct half {
     int control_count;
     bool with_parts;
     estimate_parts parts; /* sums */
+    rgb known_error;      /* sum of the errors of what was known beforehand */
     bool cached;
     rgb told[IRRADIANCE_PARTS];                      /* sums */
     double lit[PATH_CONTROLS], whole[PATH_CONTROLS]; /* sums of the controls' */
@@ -102,6 +103,7 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     h->integrated = h->integrated || taken.integrated;
     if (taken.cached)
         add_told(h, &taken);
+    h->known_error = rgb_add(h->known_error, taken.known_error);
     h->luck = luck > h->luck ? luck : h->luck;
     if (h->with_parts) {
         h->parts.indirect = rgb_add(h->parts.indirect, taken.indirect);
@@ -293,6 +295,15 @@ static rgb variance_of_cache(const half halves[HALVES], const double share[HALVE
     return rgb_scale(widening(freedom) / (freedom * IRRADIANCE_PARTS), squares);
 }
 
+/* Of what was known beforehand: the same surface's in all samples, it does not average out. */
+static rgb variance_of_known(const half halves[HALVES], const double share[HALVES]) {
+    rgb error = {0, 0, 0};
+    for (int i = 0; i < HALVES; i++)
+        if (halves[i].taken > 0)
+            error = rgb_add_scaled(error, share[i] / halves[i].taken, halves[i].known_error);
+    return rgb_multiply(error, error);
+}
+
 static void summarize(const half halves[HALVES], const finding found[HALVES], graze_answer *answer) {
     double share[HALVES];
     share_halves(halves, share);
@@ -305,6 +316,7 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
                                           squares[0] * first.fast + squares[1] * second.fast});
     if (halves[0].cached || halves[1].cached)
         variance = rgb_add(variance, variance_of_cache(halves, share));
+    variance = rgb_add(variance, variance_of_known(halves, share));
     answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
     double unseen = unseen_shadows(halves), brightness = rgb_brightness(answer->value);
     if (unseen > 0) {
@@ -384,16 +396,17 @@ static void begin(half *h, uint64_t key, bool with_parts) {
     h->luck = ESTIMATE_EXACT;
     h->with_parts = with_parts;
     h->cached = false;
+    h->known_error = rgb_gray(0);
     h->parts = (estimate_parts){{0, 0, 0}, {0, 0, 0}};
 }
 
-static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, uint32_t least,
-                            estimate_sample *sample, void *user, graze_answer *answer) {
+static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, uint32_t least, estimate_sample *sample,
+                            void *user, graze_answer *answer) {
     bool exact = take_one(&halves[0], sample, user) == ESTIMATE_EXACT;
     if (exact || s->samples == 1) {
         answer->value = not_negative(halves[0].sum[0]);
-        answer->standard_error =
-            exact ? with_known_error(rgb_gray(0), answer->value, halves) : rgb_gray(GRAZE_UNKNOWN_ERROR);
+        rgb known = rgb_multiply(halves[0].known_error, halves[0].known_error);
+        answer->standard_error = exact ? with_known_error(known, answer->value, halves) : rgb_gray(GRAZE_UNKNOWN_ERROR);
         answer->samples = 1;
         return;
     }

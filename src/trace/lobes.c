@@ -76,7 +76,8 @@ static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool 
 static inline lobe_choice chances_above(const path *p, const vertex *v) {
     lobe_choice choice = {0};
     rgb matte = v->function ? rgb_add(v->ambient, v->function_color) : v->ambient;
-    choice.diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, path_bounces_left(p), &choice.diffuse_ends);
+    bool follows = path_bounces_left(p) && !(p->indirect_known && p->depth == 0);
+    choice.diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, follows, &choice.diffuse_ends);
     if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
         choice.specular =
             rgb_is_black(p->throughput) ? passage_chance(p, v->shading.specular) : survival(p, v->shading.specular);

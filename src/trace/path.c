@@ -25,8 +25,14 @@ static void add_ambient_value(path *p, const vertex *v) {
     rgb found = rgb_multiply(p->throughput, reflected);
     p->radiance = rgb_add(p->radiance, found);
     if (!p->scattered)
-        p->ambient_light = rgb_add(p->ambient_light, found);
+        p->indirect_light = rgb_add(p->indirect_light, found);
     observe_surface(p, found);
+}
+
+/* Whether irradiance tells what is reflected diffusely. */
+static bool reflects_plainly(const vertex *v) {
+    return !v->no_ambient && !v->gloss_is_ambient && !v->shading.fresnel && !v->leans && !v->function &&
+           !v->shading.transmits;
 }
 
 /* Takes what the cache tells of the point that a diffuse reflection has led to, or notes the record that is asked for.
@@ -35,8 +41,7 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     const path_context *context = p->context;
     bool wanted = context->cache || context->record;
     if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
-        context->settings->ambient_bounces < 2 || v->no_ambient || v->gloss_is_ambient || v->shading.fresnel ||
-        v->leans || v->function || v->shading.transmits)
+        context->settings->ambient_bounces < 2 || !reflects_plainly(v))
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[IRRADIANCE_PARTS];
@@ -48,12 +53,34 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
         return false;
     rgb reflected = rgb_scale(1 / PI, rgb_multiply(p->throughput, v->shading.diffuse));
     for (int i = 0; i < IRRADIANCE_PARTS; i++) {
-        p->told[i] = rgb_multiply(reflected, irradiance[i]);
-        p->radiance = rgb_add_scaled(p->radiance, 1.0 / IRRADIANCE_PARTS, p->told[i]);
+        rgb told = rgb_multiply(reflected, irradiance[i]);
+        p->told[i] = p->cached ? rgb_add(p->told[i], told) : told;
+        p->radiance = rgb_add_scaled(p->radiance, 1.0 / IRRADIANCE_PARTS, told);
     }
     p->cached = true;
     v->shading.diffuse = v->ambient = rgb_gray(0);
     return v->shading.specular_lobe == GRAZE_LOBE_NONE;
+}
+
+/* Of the error asked for, so much may come from what is known beforehand. */
+#define INDIRECT_SHARE 0.7
+
+/* Takes what is known of the first point, if it is good enough: diffuse reflections are not followed from there. */
+static void take_indirect(path *p, const vertex *v) {
+    const path_indirect *known = p->context->indirect;
+    const graze_trace_settings *s = p->context->settings;
+    if (!known || p->depth > 0 || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
+        return;
+    rgb reflectance = rgb_scale(1 / PI, v->shading.diffuse);
+    rgb value = rgb_multiply(reflectance, known->irradiance), error = rgb_multiply(reflectance, known->error);
+    if (rgb_max(error) > INDIRECT_SHARE * s->error * fmax(rgb_max(value), s->floor))
+        return;
+    p->radiance = rgb_add(p->radiance, value);
+    p->indirect_light = rgb_add(p->indirect_light, value);
+    for (int i = 0; i < IRRADIANCE_PARTS; i++)
+        p->told[i] = rgb_multiply(reflectance, known->told[i]);
+    p->cached = p->indirect_known = true;
+    p->indirect_error = error;
 }
 
 /* What the way to a hit through a clear body leaves of the light; and of which body. */
@@ -113,6 +140,7 @@ static void follow(path *p, gathering *here) {
         bool decided = here->decided;
         if (!path_bounces_left(p))
             add_ambient_value(p, v);
+        take_indirect(p, v);
         if (transmits) {
             decide_for_both(p, here, beyond);
         } else if (!decided) {
@@ -120,7 +148,7 @@ static void follow(path *p, gathering *here) {
             direct_light_prepare(p, v, &here->lights);
         }
         p->known.controls = p->known.settled = p->known.watched = 0;
-        if (light_choice_is_possible(&here->lights) && !context->record) {
+        if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
             if (!context->observer)
                 known_light_add(p, v, &here->lights);
             direct_light_add(p, v, &here->lights, &here->lobes);
@@ -164,7 +192,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->first_group = points->group;
     p->length = 0;
     p->throughput = (rgb){1, 1, 1};
-    p->radiance = p->ambient_light = p->albedo = (rgb){0, 0, 0};
+    p->radiance = p->indirect_light = p->albedo = (rgb){0, 0, 0};
     p->ambient_depth = p->depth = p->passages = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
@@ -174,7 +202,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->last.refracted = false;
     p->last.travelled = 0;
     p->known = (known_lights){.shared = false};
-    p->integrated = p->cached = false;
+    p->integrated = p->cached = p->gathering = p->indirect_known = false;
     p->control_count = 0;
 }
 
@@ -182,6 +210,7 @@ static path_sample path_end(const path *p) {
     path_sample sample;
     sample.radiance = p->radiance;
     sample.cached = p->cached;
+    sample.known_error = p->indirect_known ? p->indirect_error : rgb_gray(0);
     for (int i = 0; i < IRRADIANCE_PARTS && p->cached; i++)
         sample.told[i] = p->told[i];
     sample.control_count = p->control_count;
@@ -189,7 +218,7 @@ static path_sample path_end(const path *p) {
     sample.searching = p->searching;
     sample.integrated = p->integrated;
     rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
-    sample.indirect = rgb_add(later, p->ambient_light);
+    sample.indirect = rgb_add(later, p->indirect_light);
     sample.albedo = p->albedo;
     for (int i = 0; i < p->control_count; i++)
         sample.controls[i] = p->controls[i];
@@ -246,4 +275,24 @@ path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal
 
 path_sample path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points) {
     return path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1);
+}
+
+bool path_asks_indirect(const path_context *context, const path_hit *first, irradiance_record *record) {
+    path p;
+    vertex v;
+    path_start(&p, context, &(sampler){.key = 0});
+    if (!vertex_at_hit(&p, first, &v) || rgb_is_black(v.shading.diffuse) || !reflects_plainly(&v))
+        return false;
+    *record = (irradiance_record){v.point, v.normal, v.surface, first->distance};
+    return true;
+}
+
+path_sample path_indirect_at(const path_context *context, const irradiance_record *record, sampler *points) {
+    path p;
+    path_start(&p, context, points);
+    p.gathering = true;
+    gathering own, *here = begin_at(context, &own);
+    here->vertex = vertex_of_point(record->point, record->normal, record->surface);
+    follow(&p, here);
+    return path_end(&p);
 }

@@ -18,6 +18,12 @@ typedef struct path_control {
 /* One for each of few lights at the first point, and one for all lights at later points. */
 enum { PATH_CONTROLS = PATH_FEW_LIGHTS + 1 };
 
+/* What is known of the irradiance at the first point that does not come straight from lights. */
+typedef struct path_indirect {
+    rgb irradiance, error;      /* error: the standard error */
+    rgb told[IRRADIANCE_PARTS]; /* of it, what the irradiance cache says */
+} path_indirect;
+
 typedef struct path_sample {
     rgb radiance;
     rgb indirect; /* the part of it that was reflected more than once, mirrors not counted before the first point that
@@ -27,6 +33,7 @@ typedef struct path_sample {
     int control_count; /* so many are set */
     bool cached;       /* some of it is what the irradiance cache says, the mean of its parts: */
     rgb told[IRRADIANCE_PARTS];
+    rgb known_error; /* the standard error of what of it was known beforehand */
     bool noisy;      /* random numbers were drawn: another sample may differ */
     bool integrated; /* some of it is exact but for what graze/brdf_light.h allows */
     bool searching; /* light may come by ways that only luck finds, such as a lamp's image in a mirror on a diffuse wall
@@ -43,5 +50,12 @@ path_sample path_irradiance(const path_context *, vec3 point, vec3 normal, sampl
 
 /* One sample of the irradiance at a record's point, on a path that has been reflected diffusely once. */
 path_sample path_irradiance_at(const path_context *, const struct irradiance_record *, sampler *);
+
+/* Whether path_radiance would use what is known of the irradiance where a path begins; if so, where that is. */
+bool path_asks_indirect(const path_context *, const path_hit *first, struct irradiance_record *);
+
+/* One sample of the irradiance at a record's point, before any reflection: `indirect` alone counts, lights are not
+ * looked for. */
+path_sample path_indirect_at(const path_context *, const struct irradiance_record *, sampler *);
 
 #endif

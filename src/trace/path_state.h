@@ -41,16 +41,19 @@ typedef struct path {
     rgb told[IRRADIANCE_PARTS]; /* as in path_sample, where it is `cached` */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
     rgb albedo; /* of the first point */
-    rgb ambient_light; /* of the ambient value, before the path scattered */
-    int ambient_depth; /* diffuse reflections so far */
-    int ambient_limit; /* how many there may be at this vertex */
-    int depth;         /* all reflections so far */
-    int passages;      /* how often it has been let through, straight on or refracted */
-    rgb medium;        /* transmittance of a unit of length where the path is; set where the scene refracts */
-    bool scattered;    /* whether any of them was not a mirror's */
-    bool searching;    /* whether one may meet lights that no light sample finds */
-    bool cached;       /* whether any came from the irradiance cache */
-    bool integrated;   /* whether some of the radiance is known without sampling */
+    rgb indirect_light;  /* before the path scattered: of the ambient value, or known beforehand */
+    int ambient_depth;   /* diffuse reflections so far */
+    int ambient_limit;   /* how many there may be at this vertex */
+    int depth;           /* all reflections so far */
+    int passages;        /* how often it has been let through, straight on or refracted */
+    rgb medium;          /* transmittance of a unit of length where the path is; set where the scene refracts */
+    bool scattered;      /* whether any of them was not a mirror's */
+    bool searching;      /* whether one may meet lights that no light sample finds */
+    bool gathering;      /* all that is asked is what the first point gets but straight from lights */
+    bool indirect_known; /* that was known beforehand, with this error in what is reflected: */
+    rgb indirect_error;
+    bool cached;     /* whether any came from the irradiance cache */
+    bool integrated; /* whether some of the radiance is known without sampling */
     scattering last;
     known_lights known;
     path_control controls[PATH_CONTROLS]; /* so many are set: */

@@ -19,8 +19,7 @@ static void assert_refused(const char *text, const char *place_and_name, const c
 static void unsupported_types_are_refused_by_name(void **state) {
     (void)state;
     assert_refused("\nvoid mist pane 0 0 0\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: mist pane", "not supported");
-    assert_refused("void BSDF d 6 0 a.xml 0 0 1 . 0 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: BSDF d",
-                   "not supported");
+    assert_refused("void BSDF d 6 0 a.xml 0 0 1 . 0 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: BSDF d", "not supported");
     assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
                    "cannot find octree file \"other.oct\"");
