@@ -437,6 +437,7 @@ graze_status geometry_build(geometry **made, const geometry_group *groups, size_
     }
     g->trees = trees;
     g->tree_count = count;
+    g->threads = threads;
     for (size_t i = 0; i < count; i++) {
         trees[i].shape_count = groups[i].shape_count;
         trees[i].placement_count = groups[i].placement_count;

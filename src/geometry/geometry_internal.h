@@ -79,6 +79,7 @@ struct geometry {
     geometry_tree *trees; /* by group: the scene first */
     size_t tree_count;
     RTCDevice device;     /* null in an empty scene */
+    int threads;          /* that may build */
     double largest_reach; /* of all surfaces' coordinates */
     /* Without nodes unless prepared (geometry/shaft.h). */
     shaft_tree sights;        /* over the scene's own shapes */

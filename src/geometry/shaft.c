@@ -33,7 +33,7 @@ static bool build_copied(geometry *g, vec3 lower, vec3 upper) {
         geometry_copy_bounds(g, &scene->placements[scene->placed[i]], &corners[0], &corners[1]);
         set_box(&g->copied_boxes[i], corners);
     }
-    return shaft_tree_build(&g->copied_sights, g->copied_boxes, count, lower, upper);
+    return shaft_tree_build(&g->copied_sights, g->copied_boxes, count, lower, upper, g->threads);
 }
 
 graze_status geometry_prepare_sights(geometry *g, const graze_report *report) {
@@ -42,8 +42,8 @@ graze_status geometry_prepare_sights(geometry *g, const graze_report *report) {
     vec3 lower = vec3_subtract(scene->center, reach), upper = vec3_add(scene->center, reach);
     if (!scene->scene || g->sights.nodes || g->copied_sights.nodes)
         return GRAZE_OK;
-    bool built =
-        scene->shape_count == 0 || shaft_tree_build(&g->sights, scene->shapes, scene->shape_count, lower, upper);
+    bool built = scene->shape_count == 0 ||
+                 shaft_tree_build(&g->sights, scene->shapes, scene->shape_count, lower, upper, g->threads);
     if (built && scene->placed_count > 0)
         built = build_copied(g, lower, upper);
     return built ? GRAZE_OK : report_out_of_memory(report);

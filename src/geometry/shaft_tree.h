@@ -32,8 +32,9 @@ typedef struct shaft_tree {
 /* A path from the root has at most this many nodes. */
 #define SHAFT_TREE_DEPTH 64
 
-/* `lower` and `upper` bound all shapes, at least one. False: no memory. */
-bool shaft_tree_build(shaft_tree *, const shape *shapes, size_t count, vec3 lower, vec3 upper);
+/* `lower` and `upper` bound all shapes, at least one. The tree's boxes do not depend on the threads, but their order in
+ * memory does. False: no memory. */
+bool shaft_tree_build(shaft_tree *, const shape *shapes, size_t count, vec3 lower, vec3 upper, int threads);
 void shaft_tree_free(shaft_tree *);
 
 #endif

@@ -4,6 +4,7 @@
 #include "geometry/geometry.h"
 #include "geometry/oracle.h"
 #include "geometry/shaft.h"
+#include "geometry/shaft_tree.h"
 #include "geometry/solid_angle.h"
 
 #define SHAPES 1500
@@ -444,6 +445,47 @@ static void a_star(void **state) {
     check_alone(&w, vec3_make(0, 0, 1));
 }
 
+static void assert_same_nodes(const shaft_tree *a, uint32_t i, const shaft_tree *b, uint32_t k, size_t *leaves) {
+    const shaft_node *x = &a->nodes[i], *y = &b->nodes[k];
+    assert_memory_equal(&x->lower, &y->lower, sizeof x->lower);
+    assert_memory_equal(&x->upper, &y->upper, sizeof x->upper);
+    assert_int_equal(x->reflects, y->reflects);
+    assert_int_equal(x->count, y->count);
+    if (x->count > 0) {
+        assert_int_equal(x->first, y->first);
+        ++*leaves;
+        return;
+    }
+    for (uint32_t child = 0; child < 2; child++)
+        assert_same_nodes(a, x->first + child, b, y->first + child, leaves);
+}
+
+static void trees_by_threads_are_the_same(void **state) {
+    (void)state;
+    enum { MANY = 50000 };
+    shape *shapes = malloc(MANY * sizeof *shapes);
+    assert_non_null(shapes);
+    dice d = {1};
+    for (int i = 0; i < MANY; i++) {
+        double spread = i % 3 ? 1 : 1e-4; /* crowded in places */
+        shapes[i] = make_sphere(roll_in_cube(&d, spread), roll_size(&d, 1e-4, i % 1000 ? 1e-2 : 1));
+        shapes[i].shines = i % 7 == 0;
+    }
+    const vec3 lower = {-2, -2, -2}, upper = {2, 2, 2};
+    shaft_tree alone, together;
+    assert_true(shaft_tree_build(&alone, shapes, MANY, lower, upper, 1));
+    assert_true(shaft_tree_build(&together, shapes, MANY, lower, upper, 4));
+    size_t leaves = 0;
+    assert_same_nodes(&alone, 0, &together, 0, &leaves);
+    assert_true(leaves > MANY / 8);
+    assert_int_equal(alone.node_count, 2 * leaves - 1);
+    assert_int_equal(together.node_count, 2 * leaves - 1);
+    assert_memory_equal(alone.order, together.order, MANY * sizeof *alone.order);
+    shaft_tree_free(&alone);
+    shaft_tree_free(&together);
+    free(shapes);
+}
+
 static void unprepared(void **state) {
     (void)state;
     world w = {.scale = 1};
@@ -471,6 +513,7 @@ int main(void) {
         cmocka_unit_test(a_lamp_and_a_ball),
         cmocka_unit_test(lamps_and_balls_in_line),
         cmocka_unit_test(a_star),
+        cmocka_unit_test(trees_by_threads_are_the_same),
         cmocka_unit_test(unprepared),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -166,8 +166,7 @@ static void makes_arrays(void **state) {
     assert_string_equal(primitive_at(scene, 17)->id, "r.2.1.t");
     const place *where = primitive_at(scene, 17)->where;
     assert_string_equal(where->parent->file, "ball.rad");
-    assert_string_equal(where->parent->parent->file,
-                        "!xform -n r -a 3 -t 1 0 0 -a 2 -t 0 5 0 -i 1 -t .5 0 0 ball.rad");
+    assert_string_equal(where->parent->parent->file, "!xform -n r -a 3 -t 1 0 0 -a 2 -t 0 5 0 -i 1 -t .5 0 0 ball.rad");
     assert_int_equal(where->parent->parent->line, 0);
     assert_string_equal(where->parent->parent->parent->file, "scene.rad");
     rad_scene_destroy(scene);
