@@ -161,9 +161,17 @@ static graze_status filter_file(job *j, const char *name, bool expand, filter_si
 
 /* ---- The command line ---- */
 
+static const char *what_is_wrong(const char *word) {
+    static const char *const first[] = {"-m", "-n", "-c", "-e", "-I"};
+    for (size_t i = 0; i < sizeof first / sizeof *first; ++i)
+        if (!strcmp(word, first[i]))
+            return "this belongs before the transform, with what it needs";
+    return rad_transform_wants(word);
+}
+
 static graze_status command_line_error(const job *j, const char *word) {
-    return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s'",
-                        rad_show(word, strlen(word)).text);
+    return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s': %s",
+                        rad_show(word, strlen(word)).text, what_is_wrong(word));
 }
 
 static graze_status too_many_instances(const job *j) {

@@ -96,7 +96,7 @@ static void errors(void **state) {
         messages m;
         graze_report report = messages_report(&m);
         rad_transform t;
-        place where = {"f", 1, 2, NULL};
+        place where = {.file = "f", .line = 1, .column = 2};
         assert_int_equal(rad_transform_parse(&t, cases[i].words, cases[i].count, &where, &report), GRAZE_INPUT_ERROR);
         assert_contains(m.text, cases[i].message);
         assert_contains(m.text, "f:1:2: ");

@@ -166,8 +166,7 @@ static void makes_arrays(void **state) {
     assert_string_equal(primitive_at(scene, 17)->id, "r.2.1.t");
     const place *where = primitive_at(scene, 17)->where;
     assert_string_equal(where->parent->file, "ball.rad");
-    assert_string_equal(where->parent->parent->file,
-                        "!xform -n r -a 3 -t 1 0 0 -a 2 -t 0 5 0 -i 1 -t .5 0 0 ball.rad");
+    assert_string_equal(where->parent->parent->file, "!xform -n r -a 3 -t 1 0 0 -a 2 -t 0 5 0 -i 1 -t .5 0 0 ball.rad");
     assert_int_equal(where->parent->parent->line, 0);
     assert_string_equal(where->parent->parent->parent->file, "scene.rad");
     rad_scene_destroy(scene);
@@ -232,11 +231,12 @@ static void refuses_bad_commands(void **state) {
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"!xform -q ball.rad", "scene.rad:1:1: xform: command line error at '-q'"},
+        {"!xform -q ball.rad", "scene.rad:1:1: xform: command line error at '-q': there is no such transform"},
         {"!xform -t 1 2 ball.rad", "command line error at '-t'"},
-        {"!xform -s 0 ball.rad", "command line error at '-s'"},
-        {"!xform -rx ball.rad", "command line error at '-rx'"},
-        {"!xform -t 1 2 3 -n a ball.rad", "command line error at '-n'"},
+        {"!xform -t nan 0 0 ball.rad", "command line error at '-t': three numbers"},
+        {"!xform -s 0 ball.rad", "command line error at '-s': a number that is not 0"},
+        {"!xform -rx ball.rad", "command line error at '-rx': an angle"},
+        {"!xform -t 1 2 3 -n a ball.rad", "command line error at '-n': this belongs before"},
         {"!xform -s 1e90 -s 1e90 ball.rad", "xform: transform out of range"},
         {"!xform -i 1000000000 -s 2 ball.rad", "xform: transform out of range"},
         {"!xform -a ball.rad", "missing count for -a option"},
