@@ -168,6 +168,11 @@ graze_status(report_out_of_memory)(const graze_report *report) {
     return GRAZE_SYSTEM_ERROR;
 }
 
+graze_status(report_out_of_memory_at)(const graze_report *report, const place *where) {
+    (void)(report_error)(report, where, "out of memory");
+    return GRAZE_SYSTEM_ERROR;
+}
+
 void report_warning(const graze_report *report, const place *where, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

@@ -28,6 +28,8 @@ graze_status report_system_error(const graze_report *report, const place *where,
 graze_status report_file_error(const graze_report *report, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 graze_status report_out_of_memory(const graze_report *report);
+/* The same of what stands at `where`. */
+graze_status report_out_of_memory_at(const graze_report *report, const place *where);
 void report_warning(const graze_report *report, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -37,6 +39,7 @@ void report_warning(const graze_report *report, const place *where, const char *
 #define report_system_error(...)     ((report_system_error)(__VA_ARGS__), GRAZE_SYSTEM_ERROR)
 #define report_file_error(...)       ((report_file_error)(__VA_ARGS__), GRAZE_SYSTEM_ERROR)
 #define report_out_of_memory(report) ((report_out_of_memory)(report), GRAZE_SYSTEM_ERROR)
+#define report_out_of_memory_at(...) ((report_out_of_memory_at)(__VA_ARGS__), GRAZE_SYSTEM_ERROR)
 #endif
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +14,12 @@ static size_t expected_size(int descriptor) {
     if (fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_size < 0)
         return 0;
     return (size_t)facts.st_size;
+}
+
+/* What may never end: no file, pipe or terminal. */
+static bool is_device(int descriptor) {
+    struct stat facts;
+    return fstat(descriptor, &facts) == 0 && (S_ISCHR(facts.st_mode) || S_ISBLK(facts.st_mode)) && !isatty(descriptor);
 }
 
 static graze_status grow(whole_file *text, size_t capacity, const graze_report *report) {
@@ -33,6 +40,8 @@ static graze_status read_all(whole_file *text, int descriptor, const char *name,
             continue;
         if (got < 0)
             return report_file_error(report, where, "cannot read %s", name);
+        if (got > 0 && text->length == 0 && is_device(descriptor))
+            return report_error(report, where, "cannot read %s: it is a device, which need not end", name);
         text->length += (size_t)got;
         text->bytes[text->length] = 0;
         if (got == 0)

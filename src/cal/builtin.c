@@ -144,7 +144,7 @@ static cal_value *build_real_argument(cal_graph *g, const cal_node *call) {
 cal_value *cal_graph_library_call(cal_graph *g, const cal_node *call, const cal_symbol *symbol) {
     const cal_function *f = symbol->library;
     if (!f)
-        return cal_value_failing(g, call, "there is no function %s()", symbol->name);
+        return cal_value_undefined(g, call, symbol, true);
     switch (f->kind) {
     case CAL_IF:
         return build_if(g, call);

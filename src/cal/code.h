@@ -79,6 +79,7 @@ struct cal_code {
     double *constants;
     const cal_function **functions;
     const char **messages; /* with their places */
+    const char *undefined; /* one of them, of a name that is not defined; or null */
     const double *reals;
     cal_unit *units; /* the main code, then functions that are called */
     uint32_t instruction_count, constant_count, function_count, message_count, real_count, unit_count;

@@ -23,6 +23,10 @@ void cal_code_destroy(cal_code *code) {
         arena_destroy(code->memory);
 }
 
+const char *cal_code_undefined(const cal_code *code) {
+    return code->undefined;
+}
+
 uint64_t cal_code_channels(const cal_code *code) {
     return code->channels;
 }

@@ -26,10 +26,13 @@ typedef struct cal_request {
 #define CAL_CHANNEL_BIT(n)            (UINT64_C(1) << ((n)-1))
 #define CAL_CHANNEL_BITS(first, last) ((CAL_CHANNEL_BIT(last) - CAL_CHANNEL_BIT(first)) | CAL_CHANNEL_BIT(last))
 
-/* Errors of syntax, and constants without a value, are found here; names without a meaning, and functions without
- * enough arguments, only where they are needed, by the evaluation. */
+/* Errors of syntax, and constants without a value, are found here; functions without enough arguments, and names
+ * without a meaning, by the evaluation where they are needed. Names that are not defined can be asked for before. */
 graze_status cal_compile(cal_code **, cal_program *, const cal_request *, const graze_report *);
 void cal_code_destroy(cal_code *); /* null is let pass */
+
+/* What there is to say of the first name that is not defined, also where it may never be needed; null: all are. */
+const char *cal_code_undefined(const cal_code *);
 
 /* The channels that are used, bit N - 1 for $N. */
 uint64_t cal_code_channels(const cal_code *);

@@ -316,6 +316,7 @@ graze_status cal_emit(struct cal_code *code, cal_graph *g, cal_value *const *res
     for (int u = 1; u < g->unit_count && !cal_emit_failed(&e); u++)
         emit_unit(&e, u);
     code->messages = g->messages;
+    code->undefined = g->undefined_count ? g->messages[g->undefined_count - 1] : NULL;
     code->message_count = (uint32_t)g->message_count;
     code->output_count = (uint32_t)count;
     code->return_count = e.flags_total + 1;

@@ -222,6 +222,8 @@ static cal_value *seen_from_unit(cal_graph *g, cal_value *v) {
 
 static cal_value *build_variable(cal_graph *g, const cal_node *node) {
     const cal_definition *d = node->symbol->definition;
+    if (!d && !node->symbol->library)
+        return cal_value_undefined(g, node, node->symbol, false);
     if (!d || d->is_function)
         return cal_value_failing(g, node, "there is no variable %s", node->symbol->name);
     if (d->body->kind == CAL_NUMBER)

@@ -112,6 +112,7 @@ typedef struct cal_graph {
     size_t shared_count, shared_capacity;
     const char **messages; /* of CAL_V_FAIL, to last as long as the code */
     int message_count, message_capacity;
+    int undefined_count; /* how many messages there were when the first name was not defined; 0: all are */
     arena *code_memory;
 } cal_graph;
 

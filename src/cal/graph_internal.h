@@ -21,6 +21,7 @@ cal_value *cal_value_unique(cal_graph *, cal_value *);
 cal_value *cal_value_constant(cal_graph *, double number, bool effect);
 cal_value *cal_value_leaf(cal_graph *, cal_value_kind, int index);
 /* What ends the evaluation with a message, if it is ever needed. */
+cal_value *cal_value_undefined(cal_graph *, const cal_node *, const cal_symbol *, bool is_called);
 cal_value *cal_value_failing(cal_graph *, const cal_node *, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 cal_value *cal_value_binary(cal_graph *, cal_value_kind, cal_value *a, cal_value *b);

@@ -131,6 +131,14 @@ cal_value *cal_value_failing(cal_graph *g, const cal_node *node, const char *for
     return v;
 }
 
+cal_value *cal_value_undefined(cal_graph *g, const cal_node *node, const cal_symbol *symbol, bool is_called) {
+    cal_value *v =
+        cal_value_failing(g, node, is_called ? "there is no function %s()" : "there is no variable %s", symbol->name);
+    if (v && !g->undefined_count)
+        g->undefined_count = g->message_count;
+    return v;
+}
+
 static bool compute(cal_value_kind kind, double a, double b, double *result) {
     switch (kind) {
     case CAL_V_ADD:

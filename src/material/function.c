@@ -70,7 +70,7 @@ static cal_outcome evaluate(const cal_code *code, const double *channels, double
     return outcome;
 }
 
-/* What has no value for any ray is found before the first one. */
+/* What has no value for any ray, and names that are not defined, are found before the first one. */
 static graze_status try(const material_function *f, const material_owner *o) {
     static const material_ray ray = {.point = {0.31, 0.42, 0.53},
                                      .direction = {0.48, 0.6, -0.64},
@@ -84,7 +84,8 @@ static graze_status try(const material_function *f, const material_owner *o) {
     material_channels(channels, o, f, NULL, &ray);
     if (evaluate(f->code, channels, values, &failure) == CAL_FAILED)
         return rad_primitive_error(o->report, o->primitive, "%s", failure);
-    return GRAZE_OK;
+    const char *undefined = cal_code_undefined(f->code);
+    return undefined ? rad_primitive_error(o->report, o->primitive, "%s", undefined) : GRAZE_OK;
 }
 
 graze_status material_function_compile(material_function *f, material_library *library, const material_owner *o,

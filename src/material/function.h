@@ -40,7 +40,7 @@ enum { MATERIAL_OWN_CHANNEL = CAL_SCENE_CHANNELS + 1, MATERIAL_OWN_CHANNELS = 10
 graze_status material_owner_begin(material_owner *, material_library *, const rad_primitive *, uint32_t file,
                                   uint32_t rest);
 /* Compiles expressions in the context of that file. `channels` are those that have values beside the ray's. Names
- * without a meaning, where they are always needed, are errors. */
+ * that are not defined are errors, in all branches that could be taken. */
 graze_status material_function_compile(material_function *, material_library *, const material_owner *, uint32_t file,
                                        const cal_expression *, size_t count, uint64_t channels);
 

@@ -35,12 +35,22 @@ static void find_planes(film_planes *p, const image *picture) {
     p->depth = image_channel(picture, "depth.Z");
 }
 
+static int channel_count(picture_content content) {
+    if (content == PICTURE_LAYERS)
+        return (int)(sizeof layer_names / sizeof *layer_names);
+    return content == PICTURE_DEPTH ? 4 : 3;
+}
+
+double film_bytes(int width, int height, picture_content content) {
+    film f;
+    size_t pixel = (size_t)channel_count(content) * sizeof(float) + sizeof *f.reached + sizeof *f.states;
+    return (double)pixel * width * height;
+}
+
 bool film_create(film *f, int width, int height, picture_content content) {
     *f = (film){0};
-    if (content == PICTURE_LAYERS)
-        f->image = image_create(width, height, (int)(sizeof layer_names / sizeof *layer_names), layer_names);
-    else
-        f->image = image_create(width, height, content == PICTURE_DEPTH ? 4 : 3, color_names);
+    f->image =
+        image_create(width, height, channel_count(content), content == PICTURE_LAYERS ? layer_names : color_names);
     if (!f->image)
         return false;
     size_t count = (size_t)width * (size_t)height;

@@ -37,6 +37,8 @@ typedef struct film_pixel {
 
 /* Null pointers, or all of it. False when out of memory. */
 bool film_create(film *, int width, int height, picture_content);
+/* How much memory that takes. */
+double film_bytes(int width, int height, picture_content);
 void film_free(film *);
 
 /* Writes the pixel and says that it is finished. */

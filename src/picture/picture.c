@@ -279,7 +279,9 @@ graze_status picture_begin(rendering **out, const graze_scene *scene, const graz
     if (!film_create(&p->film, settings->width, settings->height, settings->content)) {
         free(p);
         *out = NULL;
-        return report_out_of_memory(report);
+        (void)report_error(report, NULL, "out of memory: a picture of %d x %d pixels takes %.3g GB", settings->width,
+                           settings->height, film_bytes(settings->width, settings->height, settings->content) / 1e9);
+        return GRAZE_SYSTEM_ERROR;
     }
     p->film.image->pixel_aspect = settings->pixel_aspect;
     return GRAZE_OK;

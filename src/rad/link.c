@@ -57,7 +57,7 @@ graze_status rad_linker_append(rad_linker *l, const rad_primitive *primitive) {
         size_t capacity = scene->capacity ? 2 * scene->capacity : 256;
         rad_primitive *primitives = realloc(scene->primitives, capacity * sizeof *primitives);
         if (!primitives)
-            return report_out_of_memory(l->reader.report);
+            return report_out_of_memory_at(l->reader.report, primitive->where);
         scene->primitives = primitives;
         scene->capacity = capacity;
     }
@@ -85,6 +85,6 @@ graze_status rad_link(void *user, rad_raw *raw) {
         status = rad_linker_append(l, &primitive);
     if (!status && !rad_type_is_surface(primitive.type) &&
         !rad_name_table_set(&l->modifiers, primitive.id, (int32_t)l->scene->count - 1))
-        status = report_out_of_memory(l->reader.report);
+        status = report_out_of_memory_at(l->reader.report, raw->where);
     return status;
 }

@@ -13,6 +13,12 @@ bool rad_octree_is(const whole_file *file) {
     return rad_bytes_have_format(file, "Radiance_octree");
 }
 
+bool rad_octree_is_named(const char *name) {
+    static const char suffix[] = ".oct";
+    size_t length = strlen(name);
+    return name[0] != '!' && length >= sizeof suffix && !strcmp(name + length - (sizeof suffix - 1), suffix);
+}
+
 /* Counts what passes. */
 typedef struct counter {
     const rad_sink *sink;
@@ -52,7 +58,7 @@ graze_status rad_octree_read(rad_reader *reader, const whole_file *file, const p
         status = read_named(reader, name, &inner, &counting);
     }
     int64_t promised = status ? 0 : rad_bytes_integer(&bytes, object_size);
-    if (!status && frozen)
+    if (!status)
         rad_bytes_skip_tree(&bytes, object_size);
     if (!status)
         status = bytes.status;

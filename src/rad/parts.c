@@ -102,8 +102,9 @@ static graze_status read_transform(rad_linker *l, const rad_primitive *user, rad
     int count = (int)user->string_count - 1;
     int used = rad_transform_leading(transform, user->strings + 1, count, &in_range);
     if (used < count)
-        return rad_primitive_error(l->reader.report, user, "bad transform at \"%s\"",
-                                   rad_show(user->strings[1 + used], strlen(user->strings[1 + used])).text);
+        return rad_primitive_error(l->reader.report, user, "bad transform at \"%s\": %s",
+                                   rad_show(user->strings[1 + used], strlen(user->strings[1 + used])).text,
+                                   rad_transform_wants(user->strings[1 + used]));
     return in_range ? GRAZE_OK : rad_primitive_error(l->reader.report, user, "transform out of range");
 }
 

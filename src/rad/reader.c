@@ -421,11 +421,16 @@ static graze_status read_text(rad_reader *reader, const whole_file *text, const 
         const place *where = keep_place(reader, here);
         return where ? rad_octree_read(reader, text, where, context, sink) : report_out_of_memory(reader->report);
     }
+    if (rad_octree_is_named(name))
+        return report_error(reader->report, &here, "a damaged octree, or none: its header is not there");
     rad_words_begin(&s.words, text->bytes, text->length);
     graze_status status = rad_pieces_are_worth_it(&s) ? rad_pieces_read(&s) : GRAZE_OK;
     if (!status)
         status = rad_source_read(&s, s.words.end);
     rad_words_end(&s.words);
+    /* Cut so short that what is left is a comment. */
+    if (!status && !s.any && !strncmp(text->bytes, "#?", 2))
+        return report_error(reader->report, &here, "a damaged octree: nothing is behind its first line");
     if (!status && !s.any)
         report_warning(reader->report, &here, "no primitives");
     return status;

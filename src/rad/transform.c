@@ -169,12 +169,27 @@ int rad_transform_leading(rad_transform *transform, const char *const *words, in
     return used;
 }
 
+const char *rad_transform_wants(const char *word) {
+    static const struct {
+        const char *word, *wants;
+    } operations[] = {
+        {"-t", "three numbers are to follow"},       {"-s", "a number that is not 0 is to follow"},
+        {"-rx", "an angle in degrees is to follow"}, {"-ry", "an angle in degrees is to follow"},
+        {"-rz", "an angle in degrees is to follow"}, {"-i", "a whole number is to follow"},
+    };
+    for (size_t i = 0; i < sizeof operations / sizeof *operations; i++)
+        if (!strcmp(word, operations[i].word))
+            return operations[i].wants;
+    return "there is no such transform";
+}
+
 graze_status rad_transform_parse(rad_transform *transform, const char *const *words, int count, const place *where,
                                  const graze_report *report) {
     bool in_range;
     int used = rad_transform_leading(transform, words, count, &in_range);
     if (used < count)
-        return report_error(report, where, "bad transform at '%.64s'", words[used]);
+        return report_error(report, where, "bad transform at '%.64s': %s", words[used],
+                            rad_transform_wants(words[used]));
     if (!in_range)
         return report_error(report, where, "transform out of range");
     return GRAZE_OK;

@@ -25,6 +25,8 @@ vec3 rad_transform_vector(const rad_transform *, vec3); /* no translation; scale
  * that is none, or whose arguments are missing or malformed, or a scale of zero. *in_range tells whether the map is one
  * that doubles can hold; where it is not, *transform is the identity. */
 int rad_transform_leading(rad_transform *transform, const char *const *words, int count, bool *in_range);
+/* What is to follow such a word, for messages where it does not; or that it is no operation. */
+const char *rad_transform_wants(const char *word);
 /* Reads words that must all be transform operations; anything else is an error naming the word. */
 graze_status rad_transform_parse(rad_transform *, const char *const *words, int count, const place *where,
                                  const graze_report *);

@@ -56,7 +56,7 @@ static graze_status append(void *user, rad_raw *raw) {
         size_t capacity = l->capacity ? 2 * l->capacity : 64;
         rad_raw *items = realloc(l->items, capacity * sizeof *items);
         if (!items)
-            return report_out_of_memory(s->reader->report);
+            return report_out_of_memory_at(s->reader->report, raw->where);
         l->items = items;
         l->capacity = capacity;
     }
@@ -91,7 +91,7 @@ static graze_status filter_list(const job *j, const list *l, filter_sink *filter
         if (raw.real_count && !j->once) {
             double *reals = arena_allocate(j->reader->memory, raw.real_count * sizeof *reals);
             if (!reals)
-                return report_out_of_memory(j->reader->report);
+                return report_out_of_memory_at(j->reader->report, j->context->parent);
             memcpy(reals, raw.reals, raw.real_count * sizeof *reals);
             raw.reals = reals;
         }
@@ -109,7 +109,7 @@ static graze_status read_file(const job *j, const char *name, bool expand, const
     bool found;
     const char *path = rad_path_find(memory, j->context->directory, name, &found);
     if (!path)
-        return report_out_of_memory(report);
+        return report_out_of_memory_at(report, j->context->parent);
     if (!found) {
         errno = ENOENT;
         return report_file_error(report, j->context->parent, "xform: cannot find file \"%s\"",
@@ -123,7 +123,7 @@ static graze_status read_file(const job *j, const char *name, bool expand, const
         bool own;
         inner.directory = rad_path_directory(memory, path, &own);
         if (!inner.directory && !own)
-            return report_out_of_memory(report);
+            return report_out_of_memory_at(report, j->context->parent);
     }
     return rad_reader_file(j->reader, path, &inner, sink);
 }
@@ -137,7 +137,7 @@ static graze_status keep_file(job *j, const char *name, bool expand, const list 
     /* It may be the numbered name of an array's instance, which does not last. */
     const char *kept_name = arena_copy_text(j->reader->memory, name, strlen(name));
     if (!kept_name)
-        return report_out_of_memory(j->reader->report);
+        return report_out_of_memory_at(j->reader->report, j->context->parent);
     int room = j->next_file;
     j->next_file = (room + 1) % KEPT_FILES;
     if (j->file_count < KEPT_FILES)
@@ -161,9 +161,21 @@ static graze_status filter_file(job *j, const char *name, bool expand, filter_si
 
 /* ---- The command line ---- */
 
+static const char *what_is_wrong(const char *word) {
+    static const char *const first[] = {"-m", "-n", "-c", "-e", "-I"};
+    for (size_t i = 0; i < sizeof first / sizeof *first; ++i)
+        if (!strcmp(word, first[i]))
+            return "this belongs before the transform, with what it needs";
+    return rad_transform_wants(word);
+}
+
 static graze_status command_line_error(const job *j, const char *word) {
-    return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s'",
-                        rad_show(word, strlen(word)).text);
+    return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s': %s",
+                        rad_show(word, strlen(word)).text, what_is_wrong(word));
+}
+
+static graze_status too_many_instances(const job *j) {
+    return report_error(j->reader->report, j->context->parent, "xform: more than %d instances", INSTANCES_MOST);
 }
 
 /* Reads the options before the transform; *used tells how many words they are. */
@@ -176,13 +188,13 @@ static graze_status read_options(const job *j, const char *const *words, int cou
         if (!strcmp(option, "-m") && i + 1 < count) {
             ++i;
             if (!filter->modifier && !(filter->modifier = arena_copy_text(memory, words[i], strlen(words[i]))))
-                return report_out_of_memory(j->reader->report);
+                return report_out_of_memory_at(j->reader->report, j->context->parent);
         } else if (!strcmp(option, "-n") && i + 1 < count) {
             ++i;
             if (!filter->prefix)
                 filter->prefix = words[i];
             else if (!(filter->prefix = rad_join_names(memory, filter->prefix, words[i])))
-                return report_out_of_memory(j->reader->report);
+                return report_out_of_memory_at(j->reader->report, j->context->parent);
         } else if (!strcmp(option, "-c")) {
             *expand = false;
         } else if (!strcmp(option, "-e")) {
@@ -201,7 +213,7 @@ static graze_status read_options(const job *j, const char *const *words, int cou
 static graze_status run_once(job *j, const char *const *words, int count) {
     const graze_report *report = j->reader->report;
     if (++j->instances > INSTANCES_MOST)
-        return report_error(report, j->context->parent, "xform: more than %d instances", INSTANCES_MOST);
+        return too_many_instances(j);
     rad_filter filter = {0};
     bool expand = true, in_range;
     int used = 0;
@@ -270,17 +282,41 @@ static size_t longest(const char *const *words, int count) {
     return most;
 }
 
+/* The count of an array, INSTANCES_MOST + 1 where it is more than that; 0 where there is none. */
+static int array_count(const char *word) {
+    double n;
+    if (word[0] == '-' || word[strspn(word, "+0123456789")] || !text_to_real(word, &n))
+        return 0;
+    return n > INSTANCES_MOST ? INSTANCES_MOST + 1 : (int)n;
+}
+
+/* How many instances the arrays of a command make, INSTANCES_MOST + 1 where they are more than that: told before the
+ * first of them is made. */
+static long all_instances(const char *const *words, int count) {
+    int64_t all = 1;
+    for (int i = 1; i + 1 < count; ++i) {
+        int n = strcmp(words[i], "-a") ? 0 : array_count(words[i + 1]);
+        if (n > 0)
+            all *= n;
+        if (all > INSTANCES_MOST)
+            return INSTANCES_MOST + 1;
+    }
+    return (long)all;
+}
+
 /* `-a n transforms`: the command with `-i 0`, `-i 1` ... `-i n-1` in its place. */
 static graze_status run_array(job *j, const char *const *words, int count, int at, int depth) {
-    int n;
-    if (at + 1 >= count || !text_to_integer(words[at + 1], &n) || n <= 0)
+    int n = at + 1 < count ? array_count(words[at + 1]) : 0;
+    if (n == 0)
         return report_error(j->reader->report, j->context->parent, "xform: missing count for -a option");
+    if (j->instances + all_instances(words, count) > INSTANCES_MOST)
+        return too_many_instances(j);
     const char **instance = malloc(((size_t)count + 2) * sizeof *instance);
     size_t room = longest(words, count) + NUMBER_ROOM;
     char *name = malloc(room);
     graze_status status = GRAZE_OK;
     if (!instance || !name)
-        status = report_out_of_memory(j->reader->report);
+        status = report_out_of_memory_at(j->reader->report, j->context->parent);
     for (int i = 0; instance && name && i < n && !status; ++i) {
         char digits[NUMBER_ROOM];
         snprintf(digits, sizeof digits, "%d", i);
@@ -318,7 +354,7 @@ static graze_status split_line(const job *j, const char *line, size_t length, co
         if (kept)
             words[(*count)++] = kept;
         else if (outcome == RAD_WORD || outcome == RAD_WORD_NO_MEMORY)
-            status = report_out_of_memory(j->reader->report);
+            status = report_out_of_memory_at(j->reader->report, j->context->parent);
         else
             status = report_error(j->reader->report, j->context->parent, "xform: bad line in argument file: %s",
                                   rad_show(line, length).text);
@@ -337,7 +373,7 @@ static graze_status run_line(job *j, const char *const *words, int count, int at
     size_t room = longest(words, count) + line->length + NUMBER_ROOM;
     char *name = arena_allocate(memory, room);
     if (!instance || !text || !name)
-        return report_out_of_memory(j->reader->report);
+        return report_out_of_memory_at(j->reader->report, j->context->parent);
     int instance_count = at;
     memcpy(instance, words, (size_t)at * sizeof *instance);
     graze_status status = split_line(j, text, line->length, instance, &instance_count);
@@ -364,7 +400,7 @@ static graze_status run_lines(job *j, const char *const *words, int count, int a
         if (outcome != RAD_WORD)
             status = outcome == RAD_WORD_ZERO
                          ? report_error(report, j->context->parent, "xform: %s is no argument file", name)
-                         : report_out_of_memory(report);
+                         : report_out_of_memory_at(report, j->context->parent);
         else if (line.length > 0 && line.text[0] != '#')
             status = run_line(j, words, count, at, &line, number++, depth);
     }
@@ -383,7 +419,7 @@ static graze_status run_file(job *j, const char *const *words, int count, int at
         return report_error(report, j->context->parent, "xform: missing file for -f option");
     const char *path = rad_path_resolve(j->reader->memory, j->context->directory, words[at + 1]);
     if (!path)
-        return report_out_of_memory(report);
+        return report_out_of_memory_at(report, j->context->parent);
     whole_file text;
     graze_status status = whole_file_read_path(&text, path, path, j->context->parent, report);
     if (status)

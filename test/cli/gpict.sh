@@ -70,5 +70,9 @@ if [ -w /dev/full ]; then
     check "a full disk" test $? -eq 2
     check "... says so" grep -q "No space" err
 fi
+if [ -z "${GRAZE_SANITIZED:-}" ]; then # whose shadow memory is larger than that
+    fails "a picture larger than the memory" 2 "a picture of 100000 x 100000 pixels takes 170 GB" "" \
+        sh -c "ulimit -v 4000000; exec $gpict $view -x 100000 -y 100000 -pa 0 room.rad"
+fi
 check "nothing half-done is left behind" sh -c '! ls -A | grep -v -e "\.rad$" -e "^[abc]\.hdr$" -e "^c\.exr$" -e "^c\.png$" -e "^lines\.png$" -e "^[d]$" -e "^n[125]\.exr$" -e "^type$" -e "^err$" -e "^out$" -e "^check.log$"'
 plan

@@ -128,6 +128,10 @@ echo "void plastic p 0 0 5 1 1 1 0" >cut.rad
 fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
 printf '#comment\nvoid mist g 0 0 0\ng sphere s 0 0 4 0 0 0 1\n' >mist.rad
 fails "a type not supported" 1 "mist.rad:2:1: mist g" "" "$gtrace" mist.rad
+printf 'void plastic g 0 0 5 .5 .5 .5 0 0\ng mesh i 1 /dev/zero 0 0\n' >endless.rad
+fails "a mesh without an end" 1 "endless.rad:2:1: cannot read /dev/zero: it is a device" "" "$gtrace" endless.rad
+printf 'void brightdata d 4 noneg /dev/zero . Px 0 0\nd plastic g 0 0 5 .5 .5 .5 0 0\ng sphere s 0 0 4 0 0 0 1\n' >endless.rad
+fails "data without an end" 1 "endless.rad:1:1: brightdata d: cannot read /dev/zero" "" "$gtrace" endless.rad
 printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
 fails "an undefined modifier" 1 "undefined.rad:1:1: sphere s: undefined modifier" "" "$gtrace" undefined.rad
 printf '\n!cat undefined.rad\n' >inner.rad

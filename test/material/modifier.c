@@ -228,6 +228,9 @@ static void assert_refused(const char *text, const char *why) {
 
 static void test_refused(void **state) {
     (void)state;
+    assert_refused("void brightfunc b 2 if(Py-3,missing,1) . 0 0", "there is no variable missing");
+    assert_refused("void brightfunc b 2 if(Py-3,missing(Px),1) . 0 0", "there is no function missing");
+    assert_refused("void brightfunc b 2 if(Py-3,odd,1) own.cal 0 0", "own.cal:1:117: there is no variable missing");
     assert_refused("void brightfunc b 2 odd own.cal 0 0", "brightfunc b: own.cal:1:117: there is no variable missing");
     assert_refused("void brightfunc b 2 Px+ . 0 0", "Px+");
     assert_refused("void brightfunc b 2 A3 . 0 0", "no real argument 3");

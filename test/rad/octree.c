@@ -197,6 +197,26 @@ static void tells_of_damage_with_its_place(void **state) {
     assert_refused(&b, "plastic gray: 1 real arguments, but it needs 5");
 }
 
+/* Cut anywhere, one that names files is refused, whatever it is called; one more byte is not. */
+static void refuses_octrees_cut_short(void **state) {
+    (void)state;
+    write_file("first.rad", "void plastic gray 0 0 5 .5 .5 .5 0 0\n");
+    binary whole = of_files((const char *const[]){"first.rad", NULL}, 1);
+    messages m;
+    for (size_t length = 0; length < whole.length; length++) {
+        binary b = whole;
+        b.length = length;
+        write_binary("cut.oct", &b);
+        assert_int_equal(read_bad("cut.oct", &m), GRAZE_INPUT_ERROR);
+        if (length < 2)
+            continue;
+        write_binary("cut", &b);
+        assert_int_equal(read_bad("cut", &m), GRAZE_INPUT_ERROR);
+    }
+    write_binary("cut.oct", &whole);
+    rad_scene_destroy(read_good("cut.oct"));
+}
+
 /* Cut anywhere, an octree is refused or read in part; changed anywhere, it does no harm. */
 static void survives_damage(void **state) {
     (void)state;
@@ -230,9 +250,13 @@ static void survives_damage(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_a_frozen_octree),           cmocka_unit_test(reads_the_files_of_an_octree),
-        cmocka_unit_test(octrees_and_files_are_one_scene), cmocka_unit_test(says_when_an_octree_is_old),
-        cmocka_unit_test(tells_of_damage_with_its_place),  cmocka_unit_test(survives_damage),
+        cmocka_unit_test(reads_a_frozen_octree),
+        cmocka_unit_test(reads_the_files_of_an_octree),
+        cmocka_unit_test(octrees_and_files_are_one_scene),
+        cmocka_unit_test(says_when_an_octree_is_old),
+        cmocka_unit_test(refuses_octrees_cut_short),
+        cmocka_unit_test(tells_of_damage_with_its_place),
+        cmocka_unit_test(survives_damage),
     };
     return cmocka_run_group_tests(tests, enter_directory, leave_directory);
 }

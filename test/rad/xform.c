@@ -231,15 +231,19 @@ static void refuses_bad_commands(void **state) {
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"!xform -q ball.rad", "scene.rad:1:1: xform: command line error at '-q'"},
+        {"!xform -q ball.rad", "scene.rad:1:1: xform: command line error at '-q': there is no such transform"},
         {"!xform -t 1 2 ball.rad", "command line error at '-t'"},
-        {"!xform -s 0 ball.rad", "command line error at '-s'"},
-        {"!xform -rx ball.rad", "command line error at '-rx'"},
-        {"!xform -t 1 2 3 -n a ball.rad", "command line error at '-n'"},
+        {"!xform -t nan 0 0 ball.rad", "command line error at '-t': three numbers"},
+        {"!xform -s 0 ball.rad", "command line error at '-s': a number that is not 0"},
+        {"!xform -rx ball.rad", "command line error at '-rx': an angle"},
+        {"!xform -t 1 2 3 -n a ball.rad", "command line error at '-n': this belongs before"},
         {"!xform -s 1e90 -s 1e90 ball.rad", "xform: transform out of range"},
         {"!xform -i 1000000000 -s 2 ball.rad", "xform: transform out of range"},
         {"!xform -a ball.rad", "missing count for -a option"},
         {"!xform -a 0 ball.rad", "missing count for -a option"},
+        {"!xform -a 20000000000 ball.rad", "more than 10000000 instances"},
+        {"!xform -a 1000000000 -t 1 0 0 missing.rad", "more than 10000000 instances"},
+        {"!xform -a 4000 -t 1 0 0 -a 4000 -t 0 1 0 -i 1 missing.rad", "more than 10000000 instances"},
         {"!xform -f", "missing file for -f option"},
         {"!xform -f empty ball.rad", "empty argument file \"empty\""},
         {"!xform -f again ball.rad", "nested more than 64 deep"},
