@@ -8,6 +8,7 @@
 static const struct feature {
     const char *name, *parts; /* with commas between; null: it has none */
 } features[] = {
+    {"VirtualSources", NULL},
     {"SecondarySources", NULL},
     {"SourceSubsampling", NULL},
     {"SourceVisibility", NULL},
@@ -16,7 +17,10 @@ static const struct feature {
     {"RussianRoulette", NULL},
     {"LowDiscrepancySeq", NULL},
     {"SpecularSampling", NULL},
+    {"MaterialMixtures", NULL},
     {"BackFaceVisibility", NULL},
+    {"ScatteringModels", "WGMD,Ashikhmin-Shirley"},
+    {"Instancing", "Octree,TriangleMesh"},
     {"Aliases", NULL},
     {"Multiprocessing", NULL},
     {"IrradianceCalc", NULL},
