@@ -34,6 +34,9 @@ static inline double vec3_dot(vec3 a, vec3 b) {
 static inline vec3 vec3_cross(vec3 a, vec3 b) {
     return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+static inline int vec3_is_same(vec3 a, vec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 static inline double vec3_length(vec3 a) {
     return sqrt(vec3_dot(a, a));
 }

@@ -30,9 +30,6 @@ typedef struct geometry_group {
     size_t placement_count;
 } geometry_group;
 
-/* Groups in groups in groups: so deep. */
-#define GEOMETRY_DEPTH 32
-
 /* Radiance's "infinitely far" (FHUGE). */
 #define GEOMETRY_FAR 1e10
 
@@ -51,7 +48,7 @@ typedef struct geometry_hit {
 } geometry_hit;
 
 /* Builds from groups; what they point to must live as long as the geometry. The first one is the scene; copies are of
- * later groups than the one that they stand in, and no more than GEOMETRY_DEPTH deep. `threads` bounds the build's own.
+ * later groups than the one that they stand in, and no more than RAD_DEPTH deep. `threads` bounds the build's own.
  * An empty scene is allowed and hits nothing; Embree is then not even started. */
 graze_status geometry_build(geometry **, const geometry_group *groups, size_t count, int threads, const graze_report *);
 void geometry_destroy(geometry *);

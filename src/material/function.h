@@ -32,8 +32,8 @@ typedef struct material_function {
     int count; /* of values */
 } material_function;
 
-/* Channels that an expression may have beside those of the ray: for data, and directions. */
-enum { MATERIAL_OWN_CHANNEL = CAL_SCENE_CHANNELS + 1, MATERIAL_OWN_CHANNELS = 10, MATERIAL_VALUES_MOST = 12 };
+/* The first channel beside those of the ray: for data, and directions. So many values at most has a function. */
+enum { MATERIAL_OWN_CHANNEL = CAL_SCENE_CHANNELS + 1, MATERIAL_VALUES_MOST = 12 };
 
 /* Reads the function file, string `file` of the primitive, and the transform behind it. Strings before number `rest`
  * are spoken for; others before the transform are told to be ignored. */

@@ -7,7 +7,7 @@
 #include "material/fresnel.h"
 
 /* String arguments. */
-enum { SPECULAR_MODIFIER, SPECULAR, TRANSMITTED = 5, DIFFUSE_MODIFIER = 8, VECTOR, FUNCTION_FILE = 12 };
+enum { SPECULAR_MODIFIER, SPECULAR, TRANSMITTED = 5, VECTOR = 9, FUNCTION_FILE = 12 };
 
 /* Roughnesses and reflectances below this are 0, as in Radiance. */
 #define NOTHING 1e-6

@@ -1,6 +1,8 @@
 /* Passes over tiles. */
 #include "picture/order.h"
 
+#include "base/even_steps.h"
+
 enum { TILE = 16 };
 
 static int smaller(int a, int b) {
@@ -18,7 +20,7 @@ static size_t common_divisor(size_t a, size_t b) {
 
 /* A step round all tiles, in the golden section: the first few tiles, however many, are well spread. */
 static size_t golden_stride(size_t tiles) {
-    size_t stride = (size_t)(0.6180339887498949 * (double)tiles);
+    size_t stride = (size_t)(GOLDEN_SECTION * (double)tiles);
     while (stride < 1 || common_divisor(stride, tiles) != 1)
         stride++;
     return stride;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/number.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 
 /* So many values a file may promise: more would be larger than any memory. */
@@ -18,17 +19,13 @@ typedef struct scanner {
     arena *memory;
 } scanner;
 
-static bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 /* Comments go from # to the line's end. */
 static void skip_blanks(scanner *s) {
     while (s->next < s->end) {
         if (*s->next == '#')
             while (s->next < s->end && *s->next != '\n')
                 s->next++;
-        else if (!is_blank(*s->next))
+        else if (!text_is_blank(*s->next))
             break;
         else if (*s->next++ == '\n') {
             s->where.line++;
@@ -43,7 +40,7 @@ static graze_status read_number(scanner *s, const char *what, double *value) {
     if (s->next == s->end)
         return report_error(s->report, &s->where, "the data file ends where %s should be", what);
     const char *end = number_scan(s->next, s->end, value);
-    if (!end || (end < s->end && !is_blank(*end) && *end != '#'))
+    if (!end || (end < s->end && !text_is_blank(*end) && *end != '#'))
         return report_error(s->report, &s->where, "%s should be here, and be a number", what);
     if (!isfinite(*value))
         return report_error(s->report, &s->where, "%s is too large", what);

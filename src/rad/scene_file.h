@@ -125,10 +125,10 @@ typedef struct rad_copy {
 typedef struct rad_scene rad_scene;
 
 /* Reads the named scenes in order, as one description: each a .rad file, an octree, `!command` (run by the shell;
- * `!xform` is done here), or `-` for standard input; and then the octrees and meshes that its instances and meshes
- * name. Aliases are resolved: an alias appears as a primitive of its own with the type and arguments of what it stands
- * for. Undefined modifiers, unknown types, wrong argument counts or malformed numbers, a failing command: errors with
- * their place. All errors of a file that can be told apart are reported, up to 20, before this returns. */
+ * `!xform` is done here), or `-` for standard input. Aliases are resolved: an alias appears as a primitive of its own
+ * with the type and arguments of what it stands for. Undefined modifiers, unknown types, wrong argument counts or
+ * malformed numbers, a failing command: errors with their place. All errors of a file that can be told apart are
+ * reported, up to 20, before this returns. */
 graze_status rad_scene_read(rad_scene **, const char *const *names, size_t count, const graze_report *);
 /* The same, and large texts by several threads. */
 graze_status rad_scene_read_by(int threads, rad_scene **, const char *const *names, size_t count, const graze_report *);
@@ -137,7 +137,7 @@ graze_status rad_scene_read_by(int threads, rad_scene **, const char *const *nam
 graze_status rad_scene_read_parts(rad_scene *, const graze_report *);
 void rad_scene_destroy(rad_scene *);
 
-/* Of all parts that have been read. */
+/* Of all parts that have been read: of the scene alone before rad_scene_read_parts. */
 const rad_primitive *rad_scene_primitives(const rad_scene *, size_t *count);
 /* How many of a type there are among them. */
 size_t rad_scene_count(const rad_scene *, rad_type);

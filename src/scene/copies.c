@@ -121,9 +121,10 @@ static void replace_materials(scene_builder *b, scene_copy *copy, int primitive,
         return;
     const scene_material *m = &scene->materials[material];
     if (in_scene && m->emits && !rgb_is_black(m->light.radiance) && !(m->light.glow && m->light.glow_radius <= 0))
-        scene_fail(b, rad_primitive_error(b->report, p, "%ss cannot be lights: its modifier is one",
-                                          p->type == RAD_MESH ? "meshe" : "instance"));
-    copy->surface = make_surface(b, primitive, material, any, p);
+        scene_fail(b, rad_primitive_error(b->report, p, "%s cannot be lights: its modifier is one",
+                                          p->type == RAD_MESH ? "meshes" : "instances"));
+    else
+        copy->surface = make_surface(b, primitive, material, any, p);
 }
 
 static void add_copy(scene_builder *b, size_t number, scene_part *part, const rad_copy *from) {

@@ -2,6 +2,7 @@
 #include "scene/light_pattern.h"
 
 #include "base/angle.h"
+#include "base/even_steps.h"
 #include "geometry/solid_angle.h"
 #include "scene/light.h"
 #include "scene/source_table.h"
@@ -12,14 +13,9 @@ enum { POINTS = 32, DIRECTIONS = 8 };
 /* A light that looked black where it was looked at must still be chosen now and then. */
 #define LEAST_PART 1e-3
 
-/* Points of a sphere, and of the unit square, evenly: by steps of the golden section and of its like. */
-static double step(int i, double length) {
-    double x = (i + 0.5) * length;
-    return x - floor(x);
-}
-
+/* Points of a sphere, evenly. */
 static vec3 point_about(int i) {
-    double z = 1 - 2 * (i + 0.5) / POINTS, angle = 2 * PI * step(i, 0.6180339887), r = sqrt(1 - z * z);
+    double z = 1 - 2 * (i + 0.5) / POINTS, angle = 2 * PI * even_step(i + 0.5, GOLDEN_SECTION), r = sqrt(1 - z * z);
     return vec3_make(r * cos(angle), r * sin(angle), z);
 }
 
@@ -33,7 +29,8 @@ static rgb mean_of_shape(const scene_light *light) {
     int count = 0;
     for (int i = 0; i < POINTS * DIRECTIONS; i++) {
         vec3 point = vec3_add_scaled(middle, distance, point_about(i / DIRECTIONS));
-        solid_angle_sample s = solid_angle_draw(light->shape, point, step(i, 0.7548776662), step(i, 0.5698402910));
+        solid_angle_sample s =
+            solid_angle_draw(light->shape, point, even_step(i + 0.5, 0.7548776662), even_step(i + 0.5, 0.5698402910));
         if (s.density == 0)
             continue;
         vec3 hit = vec3_add_scaled(point, s.distance, s.direction), normal = shape_normal(light->shape, hit);

@@ -131,14 +131,10 @@ static void prepare_reflector(const path *p, const path_hit *hit, const encounte
     vertex_find_ambient(p, v, &reflector);
 }
 
-static bool is_same(vec3 a, vec3 b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 static bool have_same_lobe(const vertex *a, const vertex *b) {
     const graze_surface *s = &a->shading, *t = &b->shading;
     return s->specular_lobe == t->specular_lobe && s->lobe.model == t->lobe.model &&
-           s->lobe.alpha_x == t->lobe.alpha_x && s->lobe.alpha_y == t->lobe.alpha_y && is_same(s->x, t->x) &&
+           s->lobe.alpha_x == t->lobe.alpha_x && s->lobe.alpha_y == t->lobe.alpha_y && vec3_is_same(s->x, t->x) &&
            a->gloss_is_ambient == b->gloss_is_ambient;
 }
 
@@ -150,7 +146,7 @@ static rgb blend(double share, rgb a, rgb b) {
 static bool blend_vertices(vertex *v, double share, const vertex *fore, const vertex *back) {
     const graze_surface *a = &fore->shading, *b = &back->shading;
     bool one_lobe = a->specular_lobe == GRAZE_LOBE_NONE || b->specular_lobe == GRAZE_LOBE_NONE;
-    if (fore->function || back->function || !is_same(a->n, b->n) || a->fresnel || b->fresnel || a->transmits ||
+    if (fore->function || back->function || !vec3_is_same(a->n, b->n) || a->fresnel || b->fresnel || a->transmits ||
         b->transmits || (!one_lobe && !have_same_lobe(fore, back)))
         return false;
     *v = a->specular_lobe == GRAZE_LOBE_NONE ? *back : *fore;
@@ -198,13 +194,13 @@ static void prepare_wgmd(const path *p, const path_hit *hit, const encounter *of
     v->function = NULL;
     v->shading = specular;
     v->shading.diffuse = diffuse.diffuse;
-    if (!is_same(at.diffuse_normal, at.specular_normal)) {
+    if (!vec3_is_same(at.diffuse_normal, at.specular_normal)) {
         v->drawn = true;
         v->shading = draw(p, 0.5) ? diffuse : specular;
         v->shading.diffuse = rgb_scale(2, v->shading.diffuse);
         v->shading.specular = rgb_scale(2, v->shading.specular);
     }
-    v->leans = !is_same(v->shading.n, v->normal);
+    v->leans = !vec3_is_same(v->shading.n, v->normal);
     const graze_material threshold = {.specularity = rgb_brightness(specular.specular)};
     vertex_find_ambient(p, v, &threshold);
 }

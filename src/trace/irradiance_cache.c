@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/angle.h"
+#include "base/even_steps.h"
 #include "base/parallel.h"
 #include "base/report.h"
 #include "scene/surface.h"
@@ -207,8 +208,7 @@ typedef struct half_cell {
 
 /* Ends in the golden section's order: however many, they are evenly spread over all of a cell's. */
 static const irradiance_record *record_at(const filling *f, const cell *c, size_t number) {
-    double turn = (double)number * 0.6180339887498949;
-    size_t index = (size_t)((turn - floor(turn)) * (double)c->count);
+    size_t index = (size_t)(even_step((double)number, GOLDEN_SECTION) * (double)c->count);
     return &f->records[c->first + (index < c->count ? index : 0)].record;
 }
 

@@ -162,6 +162,7 @@ static void lights_in_copies_are_only_seen(void **state) {
     graze_scene_destroy(scene);
     assert_refused(BASE "void light l 0 0 3 1 1 1\nl instance x 1 lamp.oct 0 0\n",
                    "instance x: instances cannot be lights");
+    assert_null(strstr(messages, "instance x: shines"));
     write_mesh("lamp.rtm", "plastic", 0, 0);
     assert_refused(BASE "void light l 0 0 3 1 1 1\nl mesh x 1 lamp.rtm 0 0\n", "mesh x: meshes cannot be lights");
     graze_scene_destroy(load(BASE "void glow l 0 0 4 1 1 1 0\nl mesh x 1 lamp.rtm 0 0\n"));

@@ -25,14 +25,10 @@ struct shot {
 
 /* ---- Before ---- */
 
-static bool same_vector(vec3 a, vec3 b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 /* Two views, both prepared, that look the same way. */
 static bool same_view(const rad_view *a, const rad_view *b) {
-    return a->type == b->type && same_vector(a->point, b->point) && same_vector(a->axis, b->axis) &&
-           same_vector(a->right, b->right) && same_vector(a->above, b->above) && a->shift == b->shift &&
+    return a->type == b->type && vec3_is_same(a->point, b->point) && vec3_is_same(a->axis, b->axis) &&
+           vec3_is_same(a->right, b->right) && vec3_is_same(a->above, b->above) && a->shift == b->shift &&
            a->lift == b->lift && a->fore == b->fore && a->aft == b->aft && a->horizontal == b->horizontal &&
            a->vertical == b->vertical;
 }
