@@ -5,7 +5,7 @@
 
 static shape placed_polygon(const shape *s, const rad_transform *t) {
     shape placed = *s;
-    placed.polygon.normal = placed_normal(t, s->polygon.normal);
+    placed.polygon.normal = rad_transform_direction(t, s->polygon.normal);
     placed.polygon.center = rad_transform_point(t, s->polygon.center);
     placed.polygon.offset = vec3_dot(placed.polygon.normal, placed.polygon.center);
     placed.polygon.area = s->polygon.area * t->scale * t->scale;
@@ -25,7 +25,7 @@ static shape placed_cone(const shape *s, const rad_transform *t) {
     if (placed.cone.length > 0) {
         placed.cone.axis = vec3_normalize(axis);
     } else {
-        placed.cone.axis = placed_normal(t, s->cone.axis);
+        placed.cone.axis = rad_transform_direction(t, s->cone.axis);
         placed.cone.length = s->cone.length * t->scale;
     }
     return placed;
@@ -44,7 +44,7 @@ shape shape_placed(const shape *s, const rad_transform *t) {
         break;
     case SHAPE_RING:
         placed.ring.center = rad_transform_point(t, s->ring.center);
-        placed.ring.normal = placed_normal(t, s->ring.normal);
+        placed.ring.normal = rad_transform_direction(t, s->ring.normal);
         placed.ring.r0 = s->ring.r0 * t->scale;
         placed.ring.r1 = s->ring.r1 * t->scale;
         break;

@@ -246,7 +246,7 @@ static vec3 in_scene(const query *q, vec3 point) {
 }
 
 static vec3 normal_in_scene(const query *q, vec3 normal) {
-    return q->visit->transform ? placed_normal(q->visit->transform, normal) : normal;
+    return q->visit->transform ? rad_transform_direction(q->visit->transform, normal) : normal;
 }
 
 static point2 project_corner(const query *q, const geometry_triangle *triangle, int corner) {
@@ -408,7 +408,7 @@ static vec3 embree_place(const query *q, double distance) {
     const geometry_tree *tree = v->tree;
     if (!v->transform) /* the difference first: it may be exact */
         return vec3_scale(tree->scale, vec3_add_scaled(vec3_subtract(q->origin, tree->center), distance, q->direction));
-    vec3 point = placed_inverse_point(v->transform, vec3_add_scaled(q->origin, distance, q->direction));
+    vec3 point = rad_transform_point_back(v->transform, vec3_add_scaled(q->origin, distance, q->direction));
     return vec3_scale(tree->scale, vec3_subtract(point, tree->center));
 }
 
@@ -417,7 +417,7 @@ static void cast(query *q) {
     const visit *v = q->visit;
     vec3 o = embree_place(q, v->start), d = q->direction;
     if (v->transform)
-        d = placed_inverse_direction(v->transform, d);
+        d = rad_transform_direction_back(v->transform, d);
     struct RTCRayHit ray = {.ray = {.org_x = (float)o.x,
                                     .org_y = (float)o.y,
                                     .org_z = (float)o.z,

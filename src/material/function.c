@@ -119,8 +119,7 @@ static vec3 row(const rad_transform *t, int index, double scale) {
 }
 
 void material_own_direction(double *channels, int first, const material_owner *o, vec3 direction) {
-    const rad_transform *t = &o->backward;
-    set_vector(channels, first, o->moved ? vec3_scale(1 / t->scale, rad_transform_vector(t, direction)) : direction);
+    set_vector(channels, first, o->moved ? rad_transform_direction_back(&o->forward, direction) : direction);
 }
 
 /* The transform's own channels, S, T, I, J, K. */
@@ -141,7 +140,7 @@ void material_channels(double channels[CAL_CHANNELS_MOST], const material_owner 
     if (wanted & CAL_CHANNEL_BITS(CAL_NX, CAL_NZ))
         material_own_direction(channels, CAL_NX, o, ray->normal);
     if (wanted & CAL_CHANNEL_BITS(CAL_PX, CAL_PZ))
-        set_vector(channels, CAL_PX, o->moved ? rad_transform_point(t, ray->point) : ray->point);
+        set_vector(channels, CAL_PX, o->moved ? rad_transform_point_back(&o->forward, ray->point) : ray->point);
     channels[CAL_T - 1] = ray->distance * t->scale;
     channels[CAL_TS - 1] = ray->last_distance * t->scale;
     channels[CAL_LU - 1] = ray->u;
@@ -164,5 +163,5 @@ bool material_function_values(const material_function *f, const material_owner *
 }
 
 vec3 material_to_world(const material_owner *o, vec3 v) {
-    return o->moved ? vec3_scale(1 / o->forward.scale, rad_transform_vector(&o->forward, v)) : v;
+    return o->moved ? rad_transform_direction(&o->forward, v) : v;
 }

@@ -1,7 +1,7 @@
 /* Finding out what surfaces of copies are. */
 #include "scene/surface.h"
 
-#include "geometry/placed.h"
+#include "rad/transform.h"
 
 scene_surface scene_copied_surface(const graze_scene *scene, int64_t number) {
     int part = 0, copy;
@@ -78,7 +78,7 @@ scene_mesh_point scene_mesh_point_at(const graze_scene *scene, int64_t number, v
         return out;
     const uint32_t *corners = mesh->triangles[found.shape - part->shapes].points;
     double shares[3];
-    find_shares(found.shape->polygon.vertices, placed_inverse_point(&found.transform, point), shares);
+    find_shares(found.shape->polygon.vertices, rad_transform_point_back(&found.transform, point), shares);
     if (mesh->normals)
         interpolate_normal(mesh, corners, shares, &found.transform, &out);
     if (mesh->uv)

@@ -1,7 +1,6 @@
 /* Evaluating the modifiers of a material at a hit. */
 #include "trace/appearance.h"
 
-#include "geometry/placed.h"
 #include "scene/surface.h"
 #include "trace/vertex.h"
 
@@ -24,12 +23,12 @@ typedef struct encounter {
 /* The ray there. */
 static void move(encounter *e) {
     const rad_transform *t = &e->transform;
-    e->ray.point = placed_inverse_point(t, e->ray.point);
-    e->ray.direction = placed_inverse_direction(t, e->ray.direction);
-    e->ray.normal = placed_inverse_direction(t, e->ray.normal);
+    e->ray.point = rad_transform_point_back(t, e->ray.point);
+    e->ray.direction = rad_transform_direction_back(t, e->ray.direction);
+    e->ray.normal = rad_transform_direction_back(t, e->ray.normal);
     e->ray.distance /= t->scale;
     e->ray.last_distance /= t->scale;
-    e->effect.perturbation = placed_inverse_direction(t, e->effect.perturbation);
+    e->effect.perturbation = rad_transform_direction_back(t, e->effect.perturbation);
 }
 
 static encounter meet(const graze_scene *scene, const path_hit *hit, double length) {
@@ -49,7 +48,7 @@ static encounter meet(const graze_scene *scene, const path_hit *hit, double leng
 
 /* A unit vector of the scene, as the material's functions know it. */
 static vec3 as_written(const encounter *e, vec3 direction) {
-    return e->moved ? placed_inverse_direction(&e->transform, direction) : direction;
+    return e->moved ? rad_transform_direction_back(&e->transform, direction) : direction;
 }
 
 material_ray appearance_ray(const graze_scene *scene, const path_hit *hit, double length) {
@@ -66,7 +65,7 @@ static vec3 lean(const path_hit *hit, const encounter *of, const material_effect
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal;
     vec3 perturbation = hit->behind ? vec3_negate(e->perturbation) : e->perturbation;
     if (of->moved)
-        perturbation = placed_normal(&of->transform, perturbation);
+        perturbation = rad_transform_direction(&of->transform, perturbation);
     return material_perturbed_normal(normal, perturbation, hit->direction);
 }
 
@@ -168,10 +167,10 @@ static bool draw(const path *p, double share) {
 static void bring_to_scene(const encounter *of, graze_surface *s) {
     if (!of->moved)
         return;
-    s->n = placed_normal(&of->transform, s->n);
-    s->x = placed_normal(&of->transform, s->x);
+    s->n = rad_transform_direction(&of->transform, s->n);
+    s->x = rad_transform_direction(&of->transform, s->x);
     s->y = vec3_cross(s->n, s->x);
-    s->view = placed_normal(&of->transform, s->view);
+    s->view = rad_transform_direction(&of->transform, s->view);
     s->local_view = vec3_make(vec3_dot(s->view, s->x), vec3_dot(s->view, s->y), vec3_dot(s->view, s->n));
 }
 

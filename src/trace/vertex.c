@@ -2,7 +2,6 @@
 #include "trace/vertex.h"
 
 #include "base/angle.h"
-#include "geometry/placed.h"
 #include "scene/surface.h"
 #include "trace/appearance.h"
 #include "trace/mirrored_light.h"
@@ -55,7 +54,7 @@ rgb vertex_function_value(const vertex *v, vec3 direction) {
         return rgb_gray(0);
     rad_transform t;
     if (v->function_scene && scene_material_is_moved(v->function_scene, v->surface, &t))
-        direction = placed_inverse_direction(&t, direction);
+        direction = rad_transform_direction_back(&t, direction);
     return rgb_scale(material_reflection_value(v->function, &v->function_point, direction), v->function_color);
 }
 
