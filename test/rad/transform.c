@@ -72,6 +72,20 @@ static void composition(void **state) {
     assert_true(fabs(vec3_length(v) - 2 * vec3_length(p)) < 1e-14);
 }
 
+static void and_back(void **state) {
+    (void)state;
+    rad_transform t = PARSE("-rx", "20", "-t", "1", "-2", "3", "-s", "-2.5", "-my", "-rz", "50");
+    vec3 point = {.3, -4, 5}, direction = vec3_normalize(vec3_make(1, 2, -3));
+    vec3 there = rad_transform_direction(&t, direction);
+    assert_true(fabs(vec3_length(there) - 1) < 1e-15);
+    assert_true(vec3_max_abs(vec3_subtract(rad_transform_direction_back(&t, there), direction)) < 1e-15);
+    vec3 back = rad_transform_point_back(&t, rad_transform_point(&t, point));
+    assert_true(vec3_max_abs(vec3_subtract(back, point)) < 1e-14);
+    rad_transform inverse = rad_transform_inverse(&t);
+    back = rad_transform_point_back(&inverse, point);
+    assert_true(vec3_max_abs(vec3_subtract(back, rad_transform_point(&t, point))) < 1e-13);
+}
+
 static void errors(void **state) {
     (void)state;
     static const struct {
@@ -107,7 +121,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(operations), cmocka_unit_test(scale_and_handedness),
         cmocka_unit_test(iteration),  cmocka_unit_test(composition),
-        cmocka_unit_test(errors),
+        cmocka_unit_test(and_back),   cmocka_unit_test(errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
