@@ -35,7 +35,8 @@ void checkpoint_settings(const checkpoint *, picture_settings *);
 const char *checkpoint_command(const checkpoint *);
 
 /* Puts the finished pixels into a picture just begun with these settings. The questions must be the same: where they
- * are not, the error names the first line that differs (of a line `scene NUMBER` only that the scene differs). So must be the layers, unless the checkpoint has more. */
+ * are not, the error names the first line that differs (of a line `scene NUMBER` only that the scene differs). So must
+ * be the layers, unless the checkpoint has more. */
 graze_status checkpoint_resume(const checkpoint *, rendering *, const char *question, const graze_report *);
 
 #endif

@@ -1,5 +1,5 @@
-/* Radiance's octrees, for what they say of the scene: what oconv writes. Of the tree itself it only matters that it is all
- * there. */
+/* Radiance's octrees, for what they say of the scene: what oconv writes. Of the tree itself it only matters that it is
+ * all there. */
 #ifndef RAD_OCTREE_H
 #define RAD_OCTREE_H
 

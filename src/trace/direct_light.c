@@ -5,6 +5,7 @@
 #include "trace/known_light.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
+#include "trace/rare_gloss.h"
 #include "trace/vertex.h"
 
 /* Few lights are all sampled at the first point, and up to so many at later ones. */
@@ -94,36 +95,43 @@ static bool light_is_visible(const path *p, const vertex *v, const light_sample 
 /* Of what is compiled for each side by itself. */
 #define ONE_SIDE inline __attribute__((always_inline))
 
+/* Of a light sample's light. */
+typedef struct reflectance {
+    bool by_gloss; /* a glossy lobe counts, whether or not it has a value in this direction */
+    rgb diffuse, glossy;
+} reflectance;
+
 /* The reflectance functions for a light sample, by the rules for its role, weighted against finding the light by
  * reflection. */
-static ONE_SIDE rgb reflectance_for_light(const path *p, const vertex *v, const light_sample *sample, double density,
-                                          const lobe_choice *choice, bool below) {
+static ONE_SIDE reflectance reflectance_for_light(const path *p, const vertex *v, const light_sample *sample,
+                                                  double density, const lobe_choice *choice, bool below) {
     const path_context *context = p->context;
     light_role role = light_role_at(&context->scene->lights[sample->light], sample->distance);
     bool ambient = role == LIGHT_AMBIENT;
-    rgb diffuse, glossy;
+    reflectance r = {.by_gloss = false};
     if (role == LIGHT_NONE || (ambient && !context_samples_glows(context->settings)))
-        return rgb_gray(0);
-    graze_surface_value(&v->shading, sample->direction, &diffuse, &glossy);
+        return r;
+    graze_surface_value(&v->shading, sample->direction, &r.diffuse, &r.glossy);
     if (v->function && !ambient)
-        diffuse = rgb_add(diffuse, vertex_function_value(v, sample->direction));
+        r.diffuse = rgb_add(r.diffuse, vertex_function_value(v, sample->direction));
     if (ambient)
-        diffuse = path_bounces_left(p) ? rgb_scale(1 / PI, below ? v->transmitted_ambient : v->ambient) : rgb_gray(0);
-    if (ambient && (below ? v->transmitted_gloss_is_ambient : v->gloss_is_ambient))
-        glossy = rgb_gray(0);
+        r.diffuse = path_bounces_left(p) ? rgb_scale(1 / PI, below ? v->transmitted_ambient : v->ambient) : rgb_gray(0);
+    r.by_gloss = !(ambient && (below ? v->transmitted_gloss_is_ambient : v->gloss_is_ambient));
+    if (!r.by_gloss)
+        r.glossy = rgb_gray(0);
     if (context->settings->strategy == GRAZE_STRATEGY_LIGHT)
-        return rgb_add(diffuse, glossy);
+        return r;
     if (choice->diffuse > 0) {
         graze_lobe lobe = below ? GRAZE_LOBE_TRANSMITTED_DIFFUSE : GRAZE_LOBE_DIFFUSE;
         double rival = choice->diffuse * graze_surface_density(&v->shading, lobe, sample->direction);
-        diffuse = rgb_scale(power_heuristic(density, rival), diffuse);
+        r.diffuse = rgb_scale(power_heuristic(density, rival), r.diffuse);
     }
     graze_lobe lobe = below ? GRAZE_LOBE_TRANSMITTED_GLOSSY : GRAZE_LOBE_GLOSSY;
     if (choice->specular > 0 && (below ? v->shading.transmitted_lobe : v->shading.specular_lobe) == lobe) {
         double rival = choice->specular * graze_surface_density(&v->shading, lobe, sample->direction);
-        glossy = rgb_scale(power_heuristic(density, rival), glossy);
+        r.glossy = rgb_scale(power_heuristic(density, rival), r.glossy);
     }
-    return rgb_add(diffuse, glossy);
+    return r;
 }
 
 /* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. */
@@ -137,13 +145,23 @@ static ONE_SIDE void add_sampled_light(path *p, const vertex *v, int light, doub
         cosine = -cosine;
     if (cosine <= 0 || (v->leans && (vec3_dot(sample.direction, v->normal) <= 0) != below))
         return;
-    rgb reflected = rgb_multiply(reflectance_for_light(p, v, &sample, density, choice, below), sample.radiance);
-    if (rgb_is_black(reflected))
+    reflectance r = reflectance_for_light(p, v, &sample, density, choice, below);
+    rgb reflected = rgb_multiply(rgb_add(r.diffuse, r.glossy), sample.radiance);
+    rare_gloss rare = below || !r.by_gloss ? RARE_GLOSS_NONE : p->gloss;
+    if (rare != RARE_GLOSS_FLAT && rgb_is_black(reflected))
         return;
-    rgb whole = rgb_scale(cosine / density, rgb_multiply(p->throughput, reflected));
-    rgb found = whole;
-    bool lit = light_is_visible(p, v, &sample, &found);
-    if (lit) {
+    rgb weight = rgb_scale(cosine / density, p->throughput), whole = rgb_multiply(weight, reflected);
+    rgb passed = rgb_gray(1);
+    bool lit = light_is_visible(p, v, &sample, &passed);
+    rgb found = rgb_multiply(whole, passed);
+    if (lit && rare) {
+        light_sample arrived = sample;
+        arrived.radiance = rgb_multiply(sample.radiance, passed);
+        if (rare == RARE_GLOSS_FLAT)
+            rare_gloss_expect(p, v, &arrived, expectation);
+        rare_gloss_find(p, v, sample.density, rgb_multiply(weight, rgb_multiply(r.glossy, arrived.radiance)));
+    }
+    if (lit && !rgb_is_black(reflected)) {
         p->radiance = rgb_add(p->radiance, found);
         observe_shadow_ray(p, v->point, &sample, found);
     }
@@ -195,5 +213,6 @@ void direct_light_add_below(path *p, const vertex *v, const light_choice *lights
 
 rgb direct_light_reflectance(const path *p, const vertex *v, const light_sample *sample, double density,
                              const lobe_choice *choice) {
-    return reflectance_for_light(p, v, sample, density, choice, false);
+    reflectance r = reflectance_for_light(p, v, sample, density, choice, false);
+    return rgb_add(r.diffuse, r.glossy);
 }

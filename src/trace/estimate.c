@@ -24,6 +24,9 @@
 #define UNSEEN_FEW  3.0
 #define FEW_SAMPLES 32.0
 
+/* Where so much of what was expected of gloss has been found, its peaks have been met, and scatter tells the error. */
+#define FOUND_ENOUGH 0.25
+
 /* A half keeps the sums of so many blocks of 2^j samples in a row; when they are full, j grows by 1. */
 #define BLOCKS 16
 
@@ -36,6 +39,7 @@ typedef struct half {
     uint32_t taken;
     int level;          /* a block has 2^level samples */
     estimate_luck luck; /* the worst of any sample */
+    path_rare rare;     /* sums */
     bool integrated;    /* whether light was integrated in any sample */
     int control_count;
     bool with_parts;
@@ -93,6 +97,13 @@ static void add_told(half *h, const path_sample *sample) {
     h->cached = true;
 }
 
+static void add_rare(path_rare *sum, const path_rare *rare) {
+    sum->expected += rare->expected;
+    sum->squares += rare->squares;
+    sum->found += rare->found;
+    sum->times += rare->times;
+}
+
 static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     sampler points = sampler_start(h->key, h->taken);
     estimate_luck luck = ESTIMATE_NOISY;
@@ -101,6 +112,7 @@ static estimate_luck take_one(half *h, estimate_sample *sample, void *user) {
     h->sum[block] = rgb_add(h->sum[block], taken.radiance);
     add_controls(h, block, &taken);
     h->integrated = h->integrated || taken.integrated;
+    add_rare(&h->rare, &taken.rare);
     if (taken.cached)
         add_told(h, &taken);
     h->known_error = rgb_add(h->known_error, taken.known_error);
@@ -259,9 +271,11 @@ static void share_halves(const half halves[HALVES], double share[HALVES]) {
 }
 
 /* Shadows of lights that are seen in part, as far as is known, may lie where no sample has been: about one part in as
- * many as there are samples. */
-static double unseen_shadows(const half halves[HALVES]) {
+ * many as there are samples. Not more than what is seen, and nothing where zeros are believed. */
+static double unseen_shadows(const half halves[HALVES], double brightness) {
     double unseen = 0;
+    if (brightness <= 0 && halves[0].taken + halves[1].taken >= ZEROS_BELIEVED)
+        return 0;
     for (int k = 0; k < PATH_CONTROLS; k++) {
         double lit = 0, whole = 0;
         uint32_t taken = 0;
@@ -274,7 +288,18 @@ static double unseen_shadows(const half halves[HALVES]) {
         if (lit >= whole || lit <= 0)
             unseen += whole / ((double)taken * taken);
     }
-    return unseen;
+    return brightness > 0 ? fmin(unseen, brightness) : unseen;
+}
+
+/* What is missing of a mean of `count` samples, as it was found by `taken`, if next to nothing was found of what gloss
+ * is expected to reflect of small lights: all of that, but the less, the more peaks of it should have been met; and
+ * more, where what is expected is known by a few points alone. */
+static double unseen_gloss(const path_rare *sum, double taken, double count) {
+    double missing = (sum->expected - sum->found / FOUND_ENOUGH) / taken;
+    if (missing <= 0 || sum->squares <= 0)
+        return 0;
+    double peaks = count / taken * sum->expected * sum->expected / sum->squares;
+    return missing * (1 + 1 / sum->times) * fmin(UNSEEN_FEW / peaks, 1);
 }
 
 /* Of the mean of what the irradiance cache's parts say, as they differ. */
@@ -318,9 +343,13 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
         variance = rgb_add(variance, variance_of_cache(halves, share));
     variance = rgb_add(variance, variance_of_known(halves, share));
     answer->value = not_negative(rgb_add_scaled(rgb_scale(share[0], found[0].mean), share[1], found[1].mean));
-    double unseen = unseen_shadows(halves), brightness = rgb_brightness(answer->value);
+    double brightness = rgb_brightness(answer->value), shadows = unseen_shadows(halves, brightness);
+    path_rare rare = halves[0].rare;
+    add_rare(&rare, &halves[1].rare);
+    double taken = (double)halves[0].taken + halves[1].taken,
+           unseen = hypot(shadows, unseen_gloss(&rare, taken, taken));
     if (unseen > 0) {
-        rgb part = brightness > 0 ? rgb_scale(fmin(unseen / brightness, 1), answer->value) : rgb_gray(unseen);
+        rgb part = brightness > 0 ? rgb_scale(unseen / brightness, answer->value) : rgb_gray(unseen);
         variance = rgb_add(variance, rgb_multiply(part, part));
     }
     answer->standard_error = with_known_error(variance, answer->value, halves);
@@ -349,7 +378,8 @@ static bool is_enough(const graze_trace_settings *s, uint32_t least, const half 
         return false;
     double allowed = s->error * fmax(value, s->floor);
     rgb variance = variance_by(&found->evidence, variance_of_mean(taken));
-    return rgb_max(variance) / HALVES <= allowed * allowed;
+    double unseen = unseen_gloss(&judge->rare, judge->taken, (double)taken * HALVES);
+    return rgb_max(variance) / HALVES + unseen * unseen <= allowed * allowed;
 }
 
 /* Where only the place in the pixel decides what is seen, halves begin with so few samples that one may see an edge
@@ -392,6 +422,7 @@ static void begin(half *h, uint64_t key, bool with_parts) {
     h->key = key;
     h->taken = 0;
     h->level = h->control_count = 0;
+    h->rare = (path_rare){0, 0, 0, 0};
     h->integrated = false;
     h->luck = ESTIMATE_EXACT;
     h->with_parts = with_parts;

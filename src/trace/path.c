@@ -16,6 +16,7 @@
 #include "trace/mirrored_light.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
+#include "trace/rare_gloss.h"
 #include "trace/vertex.h"
 
 /* The ambient value stands for the diffuse light that is not followed. */
@@ -148,6 +149,7 @@ static void follow(path *p, gathering *here) {
             direct_light_prepare(p, v, &here->lights);
         }
         p->known.controls = p->known.settled = p->known.watched = 0;
+        p->gloss = rare_gloss_at(p, v);
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
             if (!context->observer)
                 known_light_add(p, v, &here->lights);
@@ -172,6 +174,8 @@ static void follow(path *p, gathering *here) {
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         observe_ray(p, v->point, &hit, found);
+        if (p->gloss && p->last.lobe == GRAZE_LOBE_GLOSSY)
+            rare_gloss_find_met(p, v, &hit, found);
         if (p->last.first)
             p->direct = p->radiance;
         if (p->known.controls | p->known.watched)
@@ -204,6 +208,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = p->gathering = p->indirect_known = false;
     p->control_count = 0;
+    p->rare = (path_rare){0, 0, 0, 0};
 }
 
 static path_sample path_end(const path *p) {
@@ -214,6 +219,7 @@ static path_sample path_end(const path *p) {
     for (int i = 0; i < IRRADIANCE_PARTS && p->cached; i++)
         sample.told[i] = p->told[i];
     sample.control_count = p->control_count;
+    sample.rare = p->rare;
     sample.noisy = p->sampler->group != p->first_group;
     sample.searching = p->searching;
     sample.integrated = p->integrated;

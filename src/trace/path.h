@@ -24,6 +24,14 @@ typedef struct path_indirect {
     rgb told[IRRADIANCE_PARTS]; /* of it, what the irradiance cache says */
 } path_indirect;
 
+/* Brightness that small lights give by narrow gloss after a diffuse reflection (trace/rare_gloss.h). */
+typedef struct path_rare {
+    double expected; /* in the mean over all directions */
+    double squares;  /* variance of what is then found */
+    double found;
+    double times; /* how often something was expected */
+} path_rare;
+
 typedef struct path_sample {
     rgb radiance;
     rgb indirect; /* the part of it that was reflected more than once, mirrors not counted before the first point that
@@ -31,7 +39,8 @@ typedef struct path_sample {
     rgb albedo;   /* reflectance of what was hit first: diffuse and specular, as seen from there; 1 with -i */
     path_control controls[PATH_CONTROLS];
     int control_count; /* so many are set */
-    bool cached;       /* some of it is what the irradiance cache says, the mean of its parts: */
+    path_rare rare;
+    bool cached; /* some of it is what the irradiance cache says, the mean of its parts: */
     rgb told[IRRADIANCE_PARTS];
     rgb known_error; /* the standard error of what of it was known beforehand */
     bool noisy;      /* random numbers were drawn: another sample may differ */

@@ -32,6 +32,13 @@ typedef struct known_lights {
     bool shared;       /* the controls are one for all */
 } known_lights;
 
+/* Where a vertex reflects small lights by a narrow lobe after a diffuse reflection (trace/rare_gloss.h). */
+typedef enum rare_gloss {
+    RARE_GLOSS_NONE, /* it does not */
+    RARE_GLOSS_FLAT,
+    RARE_GLOSS_CURVED,
+} rare_gloss;
+
 typedef struct path {
     const path_context *context;
     sampler *sampler;
@@ -58,6 +65,8 @@ typedef struct path {
     known_lights known;
     path_control controls[PATH_CONTROLS]; /* so many are set: */
     int control_count;
+    rare_gloss gloss; /* at the last vertex */
+    path_rare rare;
 } path;
 
 /* Whether the path is where all paths of its ray come first. */

@@ -1,0 +1,103 @@
+/* What lobes after a diffuse reflection are expected to reflect of small lights, and what they do. */
+#include "trace/rare_gloss.h"
+
+#include "base/angle.h"
+#include "geometry/placed.h"
+#include "trace/context.h"
+
+/* What is found in so large a part of all cases is not rare. */
+#define RARE 0.25
+
+/* The part of all directions, each counted by its cosine, from which a light is seen in the gloss of a flat surface:
+ * its image's, of the solid angle 1/density, and the lobe's. Half vectors lie in an ellipse of area pi ax ay;
+ * directions, turned by twice the angle, spread over 4 times that where they leave the surface steeply. */
+static double share_of_directions(const graze_brdf *lobe, double density) {
+    return 4 * lobe->alpha_x * lobe->alpha_y + 1 / (PI * density);
+}
+
+static bool is_rare(const vertex *v, double density) {
+    return density > 0 && share_of_directions(&v->shading.lobe, density) < RARE;
+}
+
+/* Notes what comes by one in 1/share of all cases. */
+static void expect(path *p, double expected, double share) {
+    p->rare.times++;
+    p->rare.expected += expected;
+    p->rare.squares += expected * expected * (1 / share - 1);
+}
+
+static double brightness_by_gloss(const path *p, const vertex *v, const light_sample *sample) {
+    return rgb_brightness(rgb_multiply(rgb_multiply(p->throughput, v->shading.specular), sample->radiance));
+}
+
+/* Of many lights, one that is hardly ever chosen counts as one chosen at random: it would else be expected to give
+ * much, once in a long while. */
+void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, double expectation) {
+    if (!is_rare(v, sample->density))
+        return;
+    double often = fmax(expectation, 1.0 / p->context->scene->light_count);
+    double cosine = vec3_dot(sample->direction, v->shading.n), times = 1 / (often * sample->density);
+    expect(p, brightness_by_gloss(p, v, sample) * times * cosine / PI,
+           share_of_directions(&v->shading.lobe, sample->density));
+}
+
+/* Whether light from the direction arrives at the body that a vertex belongs to: there, or else where a ray from there
+ * leaves it. */
+static bool body_is_lit(const path *p, const vertex *v, const light_sample *sample) {
+    const graze_scene *scene = p->context->scene;
+    geometry_ray ray = {
+        .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
+    if (vec3_dot(sample->direction, v->normal) <= 0) {
+        geometry_hit end;
+        if (!geometry_intersect(scene->geometry, &ray, &end) || end.surface != v->surface)
+            return false;
+        ray.origin = end.point;
+        ray.far -= end.distance;
+    }
+    return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
+}
+
+/* A ball spreads a beam evenly over all directions if it mirrors it, and about so if it has a narrow lobe. So do other
+ * curved bodies in the mean over the ways that they may be turned. Of all points that are seen, in the light or not, as
+ * many show the light as there are normals near the half vector. */
+static void expect_on_body(path *p, const vertex *v, int index) {
+    static const double middle[2] = {0.5, 0.5};
+    const scene_light *light = &p->context->scene->lights[index];
+    light_sample sample = light_draw(p->context->scene, v->point, p->length, index, middle);
+    if (sample.light < 0 || !is_rare(v, sample.density))
+        return;
+    light_role role = light_role_at(light, sample.distance);
+    bool counts = role == LIGHT_DIRECT ||
+                  (role == LIGHT_AMBIENT && !v->gloss_is_ambient && context_samples_glows(p->context->settings));
+    if (!counts || rgb_is_black(sample.radiance) || !body_is_lit(p, v, &sample))
+        return;
+    const graze_brdf *lobe = &v->shading.lobe;
+    double half = sqrt(fmax((1 + vec3_dot(sample.direction, v->shading.view)) / 2, 0));
+    double share = lobe->alpha_x * lobe->alpha_y * fmax(half, 0.1) + 1 / (4 * PI * sample.density);
+    expect(p, brightness_by_gloss(p, v, &sample) / (4 * PI * sample.density), share);
+}
+
+rare_gloss rare_gloss_at(path *p, const vertex *v) {
+    if (p->ambient_depth == 0 || v->shading.specular_lobe != GRAZE_LOBE_GLOSSY ||
+        !context_samples_lights(p->context->settings) || share_of_directions(&v->shading.lobe, HUGE_VAL) >= RARE)
+        return RARE_GLOSS_NONE;
+    const graze_scene *scene = p->context->scene;
+    shape_kind kind = geometry_find(scene->geometry, v->surface).shape->kind;
+    if (scene->light_count > PATH_FEW_LIGHTS || (kind != SHAPE_SPHERE && kind != SHAPE_CONE))
+        return RARE_GLOSS_FLAT;
+    for (int i = 0; i < (int)scene->light_count; i++)
+        expect_on_body(p, v, i);
+    return RARE_GLOSS_CURVED;
+}
+
+void rare_gloss_find(path *p, const vertex *v, double light_density, rgb found) {
+    if (is_rare(v, light_density))
+        p->rare.found += rgb_brightness(found);
+}
+
+void rare_gloss_find_met(path *p, const vertex *v, const path_hit *hit, rgb found) {
+    if (!rgb_is_black(found))
+        rare_gloss_find(p, v,
+                        light_density(p->context->scene, v->point, hit->light, hit->direction, hit->point, hit->normal),
+                        found);
+}

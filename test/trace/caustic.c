@@ -1,0 +1,81 @@
+/* Standard errors are true where a rough metal ball throws sunlight on a floor, which few paths meet; and where nothing
+ * is met, it is known that nothing comes. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/angle.h"
+#include "base/vector.h"
+#include "graze/trace.h"
+#include "support/scene_text.h"
+
+#define SUN "void light l 0 0 3 5e6 5e6 5e6 l source sun 0 0 4 0 0 1 .53\n"
+
+static graze_scene *load(const char *text) {
+    graze_scene *scene = scene_from_text(text);
+    if (!scene)
+        fail_msg("%s", messages);
+    return scene;
+}
+
+/* All points of a circle around the ball are lit alike. */
+static graze_ray ray_to_circle(double turn) {
+    double angle = 2 * PI * turn;
+    return (graze_ray){.origin = {1.5 * cos(angle), 1.5 * sin(angle), 0.01}, .direction = {0, 0, -1}};
+}
+
+static void intervals_cover_a_caustic(void **state) {
+    (void)state;
+    graze_scene *scene = load(SUN "void plastic g 0 0 5 .3 .3 .3 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 20\n"
+                                  "void metal m 0 0 5 .7 .7 .7 .9 .1 m sphere ball 0 0 4 0 0 1 .99\n");
+    graze_trace_settings s = graze_trace_defaults();
+    s.ambient_bounces = 1;
+    s.samples = 1u << 20;
+    graze_ray ray = ray_to_circle(0);
+    graze_answer truth, answer;
+    graze_trace(scene, &s, &ray, 1000, &truth, NULL);
+    s.samples = 0;
+    enum { RAYS = 400 };
+    static const double errors[] = {0.05, 0.02, 0.01};
+    for (int e = 0; e < 3; e++) {
+        int covered = 0;
+        double sum = 0, squares = 0;
+        s.error = errors[e];
+        for (int i = 0; i < RAYS; i++) {
+            ray = ray_to_circle((i + 0.5) / RAYS);
+            graze_trace(scene, &s, &ray, (uint64_t)i, &answer, NULL);
+            double off = answer.value.g - truth.value.g;
+            covered += fabs(off) <= 1.96 * answer.standard_error.g;
+            sum += off;
+            squares += off * off;
+        }
+        double mean = sum / RAYS, scatter = sqrt((squares / RAYS - mean * mean) / RAYS);
+        printf("# --error %g: %.1f%% covered, %g too large, +- %g; truth %g +- %g\n", s.error, 100.0 * covered / RAYS,
+               mean, scatter, truth.value.g, truth.standard_error.g);
+        assert_true(covered >= 0.85 * RAYS);
+        assert_true(fabs(mean) < 3 * hypot(scatter, truth.standard_error.g));
+    }
+    graze_scene_destroy(scene);
+}
+
+static void zeros_are_exact_where_all_is_dark(void **state) {
+    (void)state;
+    graze_scene *scene = load(SUN "void plastic g 0 0 5 .5 .5 .5 0 0 g sphere ball 0 0 4 0 0 0 1\n");
+    graze_trace_settings s = graze_trace_defaults();
+    graze_ray ray = {.origin = {0, 0, 0}, .direction = {0.3, 0.1, -1}};
+    graze_answer answer;
+    graze_trace(scene, &s, &ray, 1, &answer, NULL);
+    assert_true(answer.value.g == 0);
+    assert_true(answer.standard_error.g == 0);
+    graze_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_cover_a_caustic),
+                                       cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
