@@ -53,6 +53,13 @@ static inline double double_max(double a, double b) {
 static inline double double_min(double a, double b) {
     return a < b ? a : b;
 }
+/* The same for each component: the corners of the box around two. */
+static inline vec3 vec3_min(vec3 a, vec3 b) {
+    return (vec3){double_min(a.x, b.x), double_min(a.y, b.y), double_min(a.z, b.z)};
+}
+static inline vec3 vec3_max(vec3 a, vec3 b) {
+    return (vec3){double_max(a.x, b.x), double_max(a.y, b.y), double_max(a.z, b.z)};
+}
 static inline double vec3_max_abs(vec3 a) {
     return double_max(fabs(a.x), double_max(fabs(a.y), double_max(fabs(a.z), 0)));
 }

@@ -39,10 +39,7 @@ typedef struct box {
 } box;
 
 static box box_join(box a, box b) {
-    return (box){
-        {shaft_lesser(a.lower.x, b.lower.x), shaft_lesser(a.lower.y, b.lower.y), shaft_lesser(a.lower.z, b.lower.z)},
-        {shaft_greater(a.upper.x, b.upper.x), shaft_greater(a.upper.y, b.upper.y),
-         shaft_greater(a.upper.z, b.upper.z)}};
+    return (box){vec3_min(a.lower, b.lower), vec3_max(a.upper, b.upper)};
 }
 
 static double box_reach(box b) {
@@ -158,7 +155,7 @@ static void collect_polygon(const geometry_tree *tree, int surface, geometry_tri
 }
 
 static double triangle_border(double height) {
-    return shaft_lesser(shaft_greater(height / 64, GEOMETRY_BORDER_LEAST), GEOMETRY_BORDER);
+    return double_min(double_max(height / 64, GEOMETRY_BORDER_LEAST), GEOMETRY_BORDER);
 }
 
 /* The farthest corner's distance from the scene's middle, in Embree's units. */
@@ -166,7 +163,7 @@ static double triangle_reach(const geometry_tree *tree, const vec3 *corners) {
     double reach2 = 0;
     for (int i = 0; i < 3; i++) {
         vec3 v = vec3_subtract(corners[i], tree->center);
-        reach2 = shaft_greater(reach2, vec3_dot(v, v));
+        reach2 = double_max(reach2, vec3_dot(v, v));
     }
     return tree->scale * sqrt(reach2);
 }
@@ -179,7 +176,7 @@ static void put_corners(const geometry_tree *tree, const vec3 *corners, const ve
         vec3 next = sides[i], previous = vec3_negate(sides[(i + 2) % 3]);
         vec3 inwards = vec3_normalize(vec3_add(next, previous));
         double sine = 0.5 * vec3_length(vec3_subtract(next, previous)); /* of half the angle */
-        corner = vec3_add_scaled(corner, -border / shaft_greater(sine, 1.0 / 32), inwards);
+        corner = vec3_add_scaled(corner, -border / double_max(sine, 1.0 / 32), inwards);
         *out++ = (float)corner.x;
         *out++ = (float)corner.y;
         *out++ = (float)corner.z;
@@ -197,7 +194,7 @@ static void put_triangle(const geometry_tree *tree, geometry_triangle *triangle,
     double lengths[3], longest = 0, area = vec3_length(normal);
     for (int i = 0; i < 3; i++) {
         lengths[i] = vec3_length(sides[i]);
-        longest = shaft_greater(longest, lengths[i]);
+        longest = double_max(longest, lengths[i]);
         sides[i] = vec3_scale(1 / lengths[i], sides[i]);
     }
     double height = tree->scale * area / longest, border = triangle_border(height); /* the least of its heights */

@@ -1,8 +1,6 @@
 /* Shapes as transforms place them. */
 #include "geometry/placed.h"
 
-#include "geometry/shaft_tree.h"
-
 static shape placed_polygon(const shape *s, const rad_transform *t) {
     shape placed = *s;
     placed.polygon.normal = rad_transform_direction(t, s->polygon.normal);
@@ -53,10 +51,8 @@ shape shape_placed(const shape *s, const rad_transform *t) {
 }
 
 static void include(vec3 point, vec3 *lower, vec3 *upper) {
-    *lower =
-        vec3_make(shaft_lesser(lower->x, point.x), shaft_lesser(lower->y, point.y), shaft_lesser(lower->z, point.z));
-    *upper =
-        vec3_make(shaft_greater(upper->x, point.x), shaft_greater(upper->y, point.y), shaft_greater(upper->z, point.z));
+    *lower = vec3_min(*lower, point);
+    *upper = vec3_max(*upper, point);
 }
 
 void shape_placed_bounds(const shape *s, const rad_transform *t, vec3 *lower, vec3 *upper) {

@@ -631,35 +631,31 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
     return true;
 }
 
-bool geometry_occluded(const geometry *g, const geometry_ray *ray, int64_t target) {
+/* Whether the way is shut, by more than panes where these are let pass; `q` tells of them. */
+static bool is_occluded(query *q, const geometry *g, const geometry_ray *ray, int64_t target, bool passes_panes) {
     if (!g->trees[0].scene || !is_ray(ray))
         return false;
-    query q;
-    prepare(&q, g, ray);
-    q.target = target;
-    q.any = true;
+    prepare(q, g, ray);
+    q->target = target;
+    q->any = true;
+    q->passes_panes = passes_panes;
     visit scene = visit_of_scene(g);
-    if (!clip(&q, &scene))
+    if (!clip(q, &scene))
         return false;
-    q.visit = &scene;
-    trace(&q);
-    return q.found_any;
+    q->visit = &scene;
+    trace(q);
+    return q->found_any;
+}
+
+bool geometry_occluded(const geometry *g, const geometry_ray *ray, int64_t target) {
+    query q;
+    return is_occluded(&q, g, ray, target, false);
 }
 
 bool geometry_occluded_but_for_panes(const geometry *g, const geometry_ray *ray, int64_t target, bool *panes) {
-    *panes = false;
-    if (!g->trees[0].scene || !is_ray(ray))
-        return false;
     query q;
-    prepare(&q, g, ray);
-    q.target = target;
-    q.any = q.passes_panes = true;
     q.found_pane = false;
-    visit scene = visit_of_scene(g);
-    if (!clip(&q, &scene))
-        return false;
-    q.visit = &scene;
-    trace(&q);
-    *panes = q.found_pane && !q.found_any;
-    return q.found_any;
+    bool occluded = is_occluded(&q, g, ray, target, true);
+    *panes = q.found_pane && !occluded;
+    return occluded;
 }

@@ -85,7 +85,7 @@ static place_of_box find_box(const shaft *s, const shaft_node *n, double *depth)
         if (span.high <= 0)
             return OUTSIDE;
         inside = inside && span.low > 0;
-        *depth = shaft_lesser(*depth, span.low + span.high);
+        *depth = double_min(*depth, span.low + span.high);
     }
     return inside ? INSIDE : ACROSS;
 }

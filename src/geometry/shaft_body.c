@@ -57,8 +57,8 @@ static bool edge_separates(const shaft *s, const face *f) {
         double low = INFINITY, high = -INFINITY;
         for (int k = 0; k < f->count; k++) {
             double part = vec3_dot(normal, f->corners[k]);
-            low = shaft_lesser(low, part);
-            high = shaft_greater(high, part);
+            low = double_min(low, part);
+            high = double_max(high, part);
         }
         if (low < -slack && high > slack)
             continue;
@@ -109,7 +109,7 @@ static bool face_closes(const shaft *s, const face *f) {
 static void find_slack(const shaft *s, const geometry *g, face *f) {
     double uneven = 0;
     for (int i = 0; i < f->count; i++)
-        uneven = shaft_greater(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
+        uneven = double_max(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
     /* Candidates for a ray come from corners and in single precision, distances from the plane: both must keep off. */
     f->slack = uneven <= s->tolerance ? 0 : 256 * GEOMETRY_FLOAT_ERROR / g->trees[0].scale + 2 * uneven;
 }
@@ -162,7 +162,7 @@ double shaft_reach_of(const shape *body, vec3 point, vec3 along) {
     if (body->kind == SHAPE_POLYGON) {
         double reach = -INFINITY;
         for (uint32_t i = 0; i < body->polygon.vertex_count; i++)
-            reach = shaft_greater(reach, vec3_dot(along, vec3_subtract(body->polygon.vertices[i], point)));
+            reach = double_max(reach, vec3_dot(along, vec3_subtract(body->polygon.vertices[i], point)));
         return reach;
     }
     if (body->kind == SHAPE_SPHERE)
@@ -170,11 +170,11 @@ double shaft_reach_of(const shape *body, vec3 point, vec3 along) {
     if (body->kind == SHAPE_RING) {
         double part = vec3_dot(along, body->ring.normal);
         return vec3_dot(along, vec3_subtract(body->ring.center, point)) +
-               body->ring.r1 * sqrt(shaft_greater(0, 1 - part * part));
+               body->ring.r1 * sqrt(double_max(0, 1 - part * part));
     }
-    double part = vec3_dot(along, body->cone.axis), across = sqrt(shaft_greater(0, 1 - part * part));
-    return shaft_greater(vec3_dot(along, vec3_subtract(body->cone.p0, point)) + body->cone.r0 * across,
-                         vec3_dot(along, vec3_subtract(body->cone.p1, point)) + body->cone.r1 * across);
+    double part = vec3_dot(along, body->cone.axis), across = sqrt(double_max(0, 1 - part * part));
+    return double_max(vec3_dot(along, vec3_subtract(body->cone.p0, point)) + body->cone.r0 * across,
+                      vec3_dot(along, vec3_subtract(body->cone.p1, point)) + body->cone.r1 * across);
 }
 
 static bool body_is_beside(const shaft *s, const shape *body, int surface) {

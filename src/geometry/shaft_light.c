@@ -18,14 +18,14 @@ double shaft_tolerance(double point, double surface) {
 shaft_span shaft_light_span(const shaft *s, vec3 along) {
     if (s->round) {
         double middle = vec3_dot(along, s->center), part = vec3_dot(along, s->axis);
-        double reach = s->radius * sqrt(shaft_greater(0, vec3_dot(along, along) - part * part));
+        double reach = s->radius * sqrt(double_max(0, vec3_dot(along, along) - part * part));
         return (shaft_span){middle - reach, middle + reach};
     }
     shaft_span span = {INFINITY, -INFINITY};
     for (int i = 0; i < s->corner_count; i++) {
         double part = vec3_dot(along, s->corners[i]);
-        span.low = shaft_lesser(span.low, part);
-        span.high = shaft_greater(span.high, part);
+        span.low = double_min(span.low, part);
+        span.high = double_max(span.high, part);
     }
     return span;
 }
@@ -51,7 +51,7 @@ static void clip(shaft *s) {
 static void add_sides(shaft *s) {
     double longest2 = 0;
     for (int i = 0; i < s->corner_count; i++)
-        longest2 = shaft_greater(longest2, vec3_dot(s->corners[i], s->corners[i]));
+        longest2 = double_max(longest2, vec3_dot(s->corners[i], s->corners[i]));
     double rounding = 16 * DBL_EPSILON * sqrt(longest2);
     for (int i = 0, before = s->corner_count - 1; i < s->corner_count; before = i++) {
         vec3 a = s->corners[before], b = s->corners[i], normal = vec3_cross(a, b);
@@ -62,8 +62,8 @@ static void add_sides(shaft *s) {
         double low = 0, high = 0;
         for (int k = 0; k < s->corner_count; k++) {
             double part = vec3_dot(normal, s->corners[k]);
-            low = shaft_lesser(low, part);
-            high = shaft_greater(high, part);
+            low = double_min(low, part);
+            high = double_max(high, part);
         }
         if (low >= -rounding)
             s->sides[s->side_count++] = normal;
@@ -90,8 +90,8 @@ static void find_bounds(shaft *s) {
     shaft_span x = shaft_light_span(s, vec3_make(1, 0, 0)), y = shaft_light_span(s, vec3_make(0, 1, 0)),
                z = shaft_light_span(s, vec3_make(0, 0, 1));
     vec3 slack = {s->tolerance, s->tolerance, s->tolerance};
-    vec3 lower = {shaft_lesser(x.low, 0), shaft_lesser(y.low, 0), shaft_lesser(z.low, 0)};
-    vec3 upper = {shaft_greater(x.high, 0), shaft_greater(y.high, 0), shaft_greater(z.high, 0)};
+    vec3 lower = {double_min(x.low, 0), double_min(y.low, 0), double_min(z.low, 0)};
+    vec3 upper = {double_max(x.high, 0), double_max(y.high, 0), double_max(z.high, 0)};
     s->lower = vec3_subtract(vec3_add(s->sight->point, lower), slack);
     s->upper = vec3_add(vec3_add(s->sight->point, upper), slack);
 }
@@ -111,8 +111,8 @@ static shaft_kind polygon_shaft(shaft *s, const shape *light) {
         return SHAFT_UNKNOWN;
     for (uint32_t i = 0; i < count; i++) {
         s->corners[i] = vec3_subtract(light->polygon.vertices[i], point);
-        uneven = shaft_greater(uneven, fabs(vec3_dot(normal, s->corners[i]) + height));
-        lowest = shaft_lesser(lowest, vec3_dot(s->sight->normal, s->corners[i]));
+        uneven = double_max(uneven, fabs(vec3_dot(normal, s->corners[i]) + height));
+        lowest = double_min(lowest, vec3_dot(s->sight->normal, s->corners[i]));
     }
     s->corner_count = (int)count;
     if (lowest < 0)

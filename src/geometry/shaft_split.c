@@ -1,8 +1,6 @@
 /* The surface area heuristic over all places along three axes. */
 #include "geometry/shaft_split.h"
 
-#include "geometry/shaft_tree.h"
-
 typedef struct bounds {
     vec3 lower, upper;
 } bounds;
@@ -15,10 +13,7 @@ typedef struct entry {
 } entry;
 
 static bounds join(bounds a, bounds b) {
-    return (bounds){
-        {shaft_lesser(a.lower.x, b.lower.x), shaft_lesser(a.lower.y, b.lower.y), shaft_lesser(a.lower.z, b.lower.z)},
-        {shaft_greater(a.upper.x, b.upper.x), shaft_greater(a.upper.y, b.upper.y),
-         shaft_greater(a.upper.z, b.upper.z)}};
+    return (bounds){vec3_min(a.lower, b.lower), vec3_max(a.upper, b.upper)};
 }
 
 static double half_area(bounds box) {

@@ -38,7 +38,7 @@ static uint32_t spread(uint32_t x) {
 static uint32_t cell(double x, double lower, double upper) {
     const double last = (1 << AXIS_BITS) - 1;
     double at = (x - lower) / (upper - lower) * (1 << AXIS_BITS);
-    return at > 0 ? (uint32_t)shaft_lesser(at, last) : 0;
+    return at > 0 ? (uint32_t)double_min(at, last) : 0;
 }
 
 /* A point somewhere in the middle, found without a look at corners. */
@@ -141,9 +141,8 @@ typedef struct branches {
 #define BRANCH_SIZE 4096
 
 static void include_box(shaft_node *node, vec3 lower, vec3 upper) {
-    vec3 a = node->lower, b = node->upper;
-    node->lower = vec3_make(shaft_lesser(a.x, lower.x), shaft_lesser(a.y, lower.y), shaft_lesser(a.z, lower.z));
-    node->upper = vec3_make(shaft_greater(b.x, upper.x), shaft_greater(b.y, upper.y), shaft_greater(b.z, upper.z));
+    node->lower = vec3_min(node->lower, lower);
+    node->upper = vec3_max(node->upper, upper);
 }
 
 static shaft_node leaf_of(const builder *b, size_t first, size_t end) {

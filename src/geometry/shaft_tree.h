@@ -8,14 +8,6 @@
 
 #include "geometry/shape.h"
 
-/* fmin and fmax would be calls, which counts here. */
-static inline double shaft_lesser(double a, double b) {
-    return a < b ? a : b;
-}
-static inline double shaft_greater(double a, double b) {
-    return a > b ? a : b;
-}
-
 typedef struct shaft_node {
     vec3 lower, upper;
     uint32_t first; /* of its shapes, in `order`; or of its two children, which stand together */

@@ -425,8 +425,8 @@ static void measure_extent(light_tree *t, const scene_light *lights, size_t coun
         if (!lights[i].shape)
             continue;
         shape_bounds(lights[i].shape, &low, &high);
-        lower = (vec3){fmin(lower.x, low.x), fmin(lower.y, low.y), fmin(lower.z, low.z)};
-        upper = (vec3){fmax(upper.x, high.x), fmax(upper.y, high.y), fmax(upper.z, high.z)};
+        lower = vec3_min(lower, low);
+        upper = vec3_max(upper, high);
     }
     double extent = vec3_max_abs(vec3_subtract(upper, lower));
     bool usable = extent > 0 && isfinite(extent);
