@@ -32,7 +32,7 @@ static scene_surface make_surface(scene_builder *b, int primitive, int material,
     return (scene_surface){
         .primitive = primitive,
         .material = material,
-        .light = scene->materials[material].emits ? seen_light(b, material, s, user) : -1,
+        .light = scene_material_emits(&scene->materials[material]) ? seen_light(b, material, s, user) : -1,
         .no_ambient = scene_leaves_ambient_out(b->settings, scene_modifier_name(scene, primitive)),
     };
 }
@@ -87,7 +87,7 @@ static void add_triangle(scene_builder *b, scene_part *part, vec3 *vertices, siz
     int material = scene_material_of_surface(b, p);
     if (material < 0)
         return;
-    s->shines = b->scene->materials[material].emits;
+    s->shines = scene_material_emits(&b->scene->materials[material]);
     s->passes = scene_material_is_pane(b->scene, &b->scene->materials[material]);
     part->surfaces[index] = make_surface(b, primitive, material, s, p);
 }
@@ -120,7 +120,8 @@ static void replace_materials(scene_builder *b, scene_copy *copy, int primitive,
     if (material < 0)
         return;
     const scene_material *m = &scene->materials[material];
-    if (in_scene && m->emits && !rgb_is_black(m->light.radiance) && !(m->light.glow && m->light.glow_radius <= 0))
+    if (in_scene && scene_material_emits(m) && !rgb_is_black(m->light.radiance) &&
+        !(m->light.glow && m->light.glow_radius <= 0))
         scene_fail(b, rad_primitive_error(b->report, p, "%s cannot be lights: its modifier is one",
                                           p->type == RAD_MESH ? "meshes" : "instances"));
     else

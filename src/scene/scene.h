@@ -47,20 +47,39 @@ typedef struct scene_light {
     bool only_seen;     /* it is in a copy: no light for others, but of a glow beyond its radius */
 } scene_light;
 
-/* What a material does, with all that modifies it: it reflects, it shines, or it is one of two materials. */
+typedef enum scene_material_kind {
+    SCENE_REFLECTOR, /* what include/graze/material.h knows: opaque, transmitting, clear, or a mirror */
+    SCENE_ORIENTED,  /* the same, its orientation by functions */
+    SCENE_EMITTER,   /* it shines */
+    SCENE_FUNCTION,  /* it reflects lights by a function */
+    SCENE_WGMD,      /* WGMDfunc */
+    SCENE_MIXTURE,   /* it is one of two materials, or both in part */
+} scene_material_kind;
+
+/* What a material does, with all that modifies it. */
 typedef struct scene_material {
-    int primitive; /* the material, or the mixture, in the description */
-    bool emits;
-    bool plain;                              /* it reflects, and `reflector` is all there is to it: */
-    graze_material reflector;                /* unless `emits`, nor a mixture */
-    scene_light light;                       /* if it emits: what the material says of a light */
-    const material_orientation *orientation; /* by functions, or null */
-    const material_reflection *reflection;   /* the same; `reflector` is then not set */
-    const material_wgmd *wgmd;               /* the same; `reflector` has no more than the model */
-    const material_modifier *modifiers;      /* patterns and textures, or null */
-    const material_modifier *mixture;        /* or null: */
-    int fore, back;                          /* indices into materials */
-    int seen_light;                          /* index into lights of the one that surfaces in copies are; or -1 */
+    scene_material_kind kind;
+    int primitive;                      /* the material, or the mixture, in the description */
+    const material_modifier *modifiers; /* patterns and textures, or null */
+    union {
+        struct { /* SCENE_REFLECTOR, SCENE_ORIENTED */
+            graze_material reflector;
+            const material_orientation *orientation; /* SCENE_ORIENTED */
+        };
+        struct {               /* SCENE_EMITTER */
+            scene_light light; /* what the material says of a light */
+            int seen_light;    /* index into lights of the one that surfaces in copies are; or -1 */
+        };
+        const material_reflection *reflection; /* SCENE_FUNCTION */
+        struct {                               /* SCENE_WGMD */
+            const material_wgmd *wgmd;
+            graze_brdf_model model;
+        };
+        struct { /* SCENE_MIXTURE */
+            const material_modifier *share;
+            int fore, back; /* indices into materials */
+        };
+    };
 } scene_material;
 
 typedef struct scene_surface {
@@ -116,6 +135,16 @@ struct graze_scene {
     light_tree light_tree;
     geometry *geometry;
 };
+
+/* Whether the material shines: it is then no more than that. */
+static inline bool scene_material_emits(const scene_material *m) {
+    return m->kind == SCENE_EMITTER;
+}
+
+/* Whether it bounds a clear body that refracts. */
+static inline bool scene_material_refracts(const scene_material *m) {
+    return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_DIELECTRIC;
+}
 
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,
  * or is an alias of ("void" where there is none; of a mixture of materials its own). */

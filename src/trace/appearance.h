@@ -7,12 +7,12 @@
 
 /* Whether what the material says is all there is to the surface. */
 static inline bool appearance_is_plain(const graze_scene *scene, const scene_material *m, int64_t surface) {
-    return m->plain && surface < (int64_t)scene->surface_count;
+    return m->kind == SCENE_REFLECTOR && !m->modifiers && surface < (int64_t)scene->surface_count;
 }
 
 /* Whether its normal may lean: what shines has no textures, but may be a mesh. */
 static inline bool appearance_has_normal(const graze_scene *scene, const scene_material *m, int64_t surface) {
-    return m->emits ? surface >= (int64_t)scene->surface_count : !appearance_is_plain(scene, m, surface);
+    return scene_material_emits(m) ? surface >= (int64_t)scene->surface_count : !appearance_is_plain(scene, m, surface);
 }
 
 /* Prepares the vertex's shading, and what depends on it, for a surface that is not plain; `v->normal` must be set.

@@ -16,7 +16,7 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
         const scene_material *material = &scene->materials[surface.material];
         primitive = surface.primitive;
         hit.normal = found->normal;
-        bool turned = found->behind && !material->emits;
+        bool turned = found->behind && !scene_material_emits(material);
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
         scene_mesh_point mesh = scene_mesh_point_at(scene, found->surface, found->point);
         hit.uv[0] = mesh.uv[0];

@@ -7,7 +7,7 @@
 /* Whether the surface bounds a clear body, which is looked at from inside, too. */
 static bool is_solid(const graze_scene *scene, int64_t surface) {
     const scene_material *material = &scene->materials[scene_surface_at(scene, surface).material];
-    return !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
+    return scene_material_refracts(material);
 }
 
 path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {

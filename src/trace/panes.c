@@ -49,8 +49,9 @@ static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     if (hit->surface < 0)
         return false;
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    graze_material_kind kind = material->reflector.kind;
-    return !material->emits && (kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC);
+    if (material->kind != SCENE_REFLECTOR)
+        return false;
+    return material->reflector.kind == GRAZE_GLASS || material->reflector.kind == GRAZE_DIELECTRIC;
 }
 
 path_hit panes_look_through(const path_context *context, const path_hit *first) {

@@ -90,10 +90,9 @@ static void attenuate(path *p, const path_hit *hit) {
     if (hit->surface < 0)
         return;
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    const graze_material *m = &material->reflector;
     /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
-    if (!material->emits && m->kind == GRAZE_DIELECTRIC && (hit->behind || rgb_min(m->outside) < 1))
-        p->medium = graze_material_attenuation(m, hit->behind, 1);
+    if (scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
+        p->medium = graze_material_attenuation(&material->reflector, hit->behind, 1);
     if (rgb_min(p->medium) == 1)
         return;
     rgb left = {pow(p->medium.r, hit->distance), pow(p->medium.g, hit->distance), pow(p->medium.b, hit->distance)};

@@ -61,7 +61,7 @@ rgb vertex_function_value(const vertex *v, vec3 direction) {
 /* Whether a path that carries nothing may still find lights behind a surface. */
 static bool looks_through(const path *p, const scene_material *material, int64_t surface) {
     const graze_scene *scene = p->context->scene;
-    bool clear = scene_surface_passes(scene, surface) || material->reflector.kind == GRAZE_DIELECTRIC ||
+    bool clear = scene_surface_passes(scene, surface) || scene_material_refracts(material) ||
                  mirrored_light_is_in(scene, surface);
     return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
 }
@@ -72,7 +72,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     const graze_scene *scene = p->context->scene;
     const scene_surface surface = scene_surface_at(scene, hit->surface);
     const scene_material *material = &scene->materials[surface.material];
-    if (material->emits || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
+    if (scene_material_emits(material) || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
     v->point = hit->point;
@@ -88,11 +88,14 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         appearance_prepare(p, hit, material, v);
         return true;
     }
-    if (irradiance)
+    if (irradiance) {
         v->shading = probe(normal, view);
-    else
-        graze_surface_prepare(&v->shading, &material->reflector,
-                              material->reflector.kind >= GRAZE_DIELECTRIC ? hit->normal : normal, view, NULL);
+        v->ambient = v->shading.diffuse;
+        v->gloss_is_ambient = false;
+        return true;
+    }
+    graze_surface_prepare(&v->shading, &material->reflector,
+                          material->reflector.kind >= GRAZE_DIELECTRIC ? hit->normal : normal, view, NULL);
     vertex_find_ambient(p, v, &material->reflector);
     return true;
 }

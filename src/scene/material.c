@@ -1,0 +1,168 @@
+/* From primitives to the materials of a scene: what each does, with all that modifies it. */
+#include "material/from_primitive.h"
+#include "scene/builder.h"
+#include "scene/emitter.h"
+#include "scene/model_choice.h"
+
+/* A failure that is told once, where the material is first used. */
+#define MATERIAL_REFUSED (-2)
+
+static bool is_mirror(const scene_material *material) {
+    const vec3 normal = {0, 0, 1};
+    graze_surface probe;
+    switch (material->kind) {
+    case SCENE_REFLECTOR:
+    case SCENE_ORIENTED:
+        graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
+        return probe.specular_lobe == GRAZE_LOBE_MIRROR;
+    case SCENE_WGMD:
+        return material->wgmd->may_mirror;
+    case SCENE_EMITTER:
+    case SCENE_FUNCTION:
+    case SCENE_MIXTURE:
+        break;
+    }
+    return false;
+}
+
+bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
+    switch (material->kind) {
+    case SCENE_REFLECTOR:
+    case SCENE_ORIENTED:
+        return !rgb_is_black(graze_material_straight_through(&material->reflector, 1));
+    case SCENE_MIXTURE:
+        return scene_material_is_pane(scene, &scene->materials[material->fore]) ||
+               scene_material_is_pane(scene, &scene->materials[material->back]);
+    case SCENE_EMITTER:
+    case SCENE_FUNCTION:
+    case SCENE_WGMD:
+        break;
+    }
+    return false;
+}
+
+static int material_of(scene_builder *, int modifier);
+
+static graze_status need_modifiers(scene_builder *b) {
+    graze_scene *scene = b->scene;
+    if (!scene->modifiers)
+        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
+    return scene->modifiers ? GRAZE_OK : report_out_of_memory(b->report);
+}
+
+/* The chain of a modifier; all that is needed for patterns is made when the first is met. */
+static graze_status find_chain(scene_builder *b, int modifier, material_chain *chain) {
+    graze_scene *scene = b->scene;
+    const rad_primitive *p = &scene->primitives[modifier];
+    *chain = (material_chain){.material = modifier};
+    if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
+        return GRAZE_OK;
+    graze_status status = need_modifiers(b);
+    if (status)
+        return status;
+    status = material_chain_find(chain, scene->modifiers, modifier);
+    if (!status && chain->material == RAD_VOID)
+        return rad_primitive_error(b->report, p, "there is no material behind it");
+    return status;
+}
+
+/* Both materials of a mixture. */
+static graze_status read_mixture(scene_builder *b, scene_material *material, const material_modifier *mixture) {
+    const rad_primitive *p = mixture->primitive;
+    if (mixture->fore == RAD_VOID || mixture->back == RAD_VOID)
+        return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
+    material->kind = SCENE_MIXTURE;
+    material->share = mixture;
+    material->fore = material_of(b, mixture->fore);
+    material->back = material_of(b, mixture->back);
+    if (material->fore < 0 || material->back < 0)
+        return b->status;
+    const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
+    if (scene_material_emits(fore) || scene_material_emits(back))
+        return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
+    if (scene_material_refracts(fore) || scene_material_refracts(back))
+        return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
+    return GRAZE_OK;
+}
+
+static graze_status read_emitter(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_EMITTER;
+    material->seen_light = -1;
+    graze_status status = emitter_to_light(&material->light, p, b->report);
+    material->light.modifiers = material->modifiers;
+    return status;
+}
+
+static graze_status read_function(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_FUNCTION;
+    graze_status status = need_modifiers(b);
+    if (status)
+        return status;
+    return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
+}
+
+static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_WGMD;
+    material->model = scene_choose_model(b->settings, p);
+    graze_status status = need_modifiers(b);
+    return status ? status : material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
+}
+
+static graze_status read_reflector(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = material_orients_by_function(p) ? SCENE_ORIENTED : SCENE_REFLECTOR;
+    graze_status status = material_from_primitive(&material->reflector, p, b->report);
+    material->reflector.model = scene_choose_model(b->settings, p);
+    if (status || material->kind == SCENE_REFLECTOR)
+        return status;
+    status = need_modifiers(b);
+    if (status)
+        return status;
+    return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);
+}
+
+static graze_status read_material(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    if (emitter_is(p->type))
+        return read_emitter(b, material, p);
+    if (material_reflects_by_function(p->type))
+        return read_function(b, material, p);
+    if (p->type == RAD_WGMDFUNC)
+        return read_wgmd(b, material, p);
+    return read_reflector(b, material, p);
+}
+
+static int add_material(scene_builder *b, int modifier) {
+    graze_scene *scene = b->scene;
+    material_chain chain;
+    scene_material made = {.kind = SCENE_REFLECTOR};
+    graze_status status = find_chain(b, modifier, &chain);
+    if (!status) {
+        made.primitive = chain.material;
+        made.modifiers = chain.modifiers;
+        status = chain.mixture ? read_mixture(b, &made, chain.mixture)
+                               : read_material(b, &made, &scene->primitives[chain.material]);
+    }
+    if (status != GRAZE_OK) {
+        scene_fail(b, status);
+        return MATERIAL_REFUSED;
+    }
+    scene->materials[scene->material_count] = made;
+    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || scene_material_refracts(&made);
+    scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
+    scene->has_refraction = scene->has_refraction || scene_material_refracts(&made);
+    return (int)scene->material_count++;
+}
+
+/* The material of a modifier, or a negative number where it has none that can be used (reported). */
+static int material_of(scene_builder *b, int modifier) {
+    if (b->material_of[modifier] == -1)
+        b->material_of[modifier] = add_material(b, modifier);
+    return b->material_of[modifier];
+}
+
+int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
+    if (surface->modifier == RAD_VOID) {
+        scene_fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
+        return MATERIAL_REFUSED;
+    }
+    return material_of(b, surface->modifier);
+}
