@@ -248,8 +248,7 @@ static evidence joined(const evidence *a, const evidence *b) {
 #define KNOWN_ERROR    1e-8
 #define ROUNDING_ERROR 1e-12
 
-static rgb with_known_error(rgb variance, rgb value, const half halves[HALVES]) {
-    bool integrated = halves[0].integrated || halves[1].integrated;
+static rgb with_known_error(rgb variance, rgb value, bool integrated) {
     rgb error = rgb_scale(integrated ? KNOWN_ERROR : rgb_max(variance) > 0 ? ROUNDING_ERROR : 0, value);
     rgb sum = rgb_add(variance, rgb_multiply(error, error));
     return (rgb){sqrt(sum.r), sqrt(sum.g), sqrt(sum.b)};
@@ -352,7 +351,7 @@ static void summarize(const half halves[HALVES], const finding found[HALVES], gr
         rgb part = brightness > 0 ? rgb_scale(unseen / brightness, answer->value) : rgb_gray(unseen);
         variance = rgb_add(variance, rgb_multiply(part, part));
     }
-    answer->standard_error = with_known_error(variance, answer->value, halves);
+    answer->standard_error = with_known_error(variance, answer->value, halves[0].integrated || halves[1].integrated);
     answer->samples = halves[0].taken + halves[1].taken;
 }
 
@@ -431,16 +430,18 @@ static void begin(half *h, uint64_t key, bool with_parts) {
     h->parts = (estimate_parts){{0, 0, 0}, {0, 0, 0}};
 }
 
-static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, uint32_t least, estimate_sample *sample,
-                            void *user, graze_answer *answer) {
+/* The first half has begun; the second one does where it is needed. */
+static void estimate_halves(half halves[HALVES], const graze_trace_settings *s, uint64_t stream, uint32_t least,
+                            estimate_sample *sample, void *user, graze_answer *answer) {
     bool exact = take_one(&halves[0], sample, user) == ESTIMATE_EXACT;
     if (exact || s->samples == 1) {
         answer->value = not_negative(halves[0].sum[0]);
         rgb known = rgb_multiply(halves[0].known_error, halves[0].known_error);
-        answer->standard_error = exact ? with_known_error(known, answer->value, halves) : rgb_gray(GRAZE_UNKNOWN_ERROR);
+        answer->standard_error = exact ? with_known_error(known, answer->value, halves[0].integrated) : rgb_gray(GRAZE_UNKNOWN_ERROR);
         answer->samples = 1;
         return;
     }
+    begin(&halves[1], sampler_key(s->seed, stream, 1), halves[0].with_parts);
     if (s->samples) {
         take_until(&halves[0], s->samples - s->samples / HALVES, sample, user);
         take_until(&halves[1], s->samples / HALVES, sample, user);
@@ -467,10 +468,10 @@ static estimate_parts mean_parts(const half halves[HALVES]) {
 void estimate_with_parts(const graze_trace_settings *s, uint64_t stream, uint32_t least, estimate_sample *sample,
                          void *user, graze_answer *answer, estimate_parts *parts) {
     half halves[HALVES];
-    for (int i = 0; i < HALVES; i++)
-        begin(&halves[i], sampler_key(s->seed, stream, (uint32_t)i), parts != NULL);
+    begin(&halves[0], sampler_key(s->seed, stream, 0), parts != NULL);
+    halves[1].taken = 0;
     *answer = (graze_answer){.converged = 1};
-    estimate_halves(halves, s, least, sample, user, answer);
+    estimate_halves(halves, s, stream, least, sample, user, answer);
     if (parts)
         *parts = mean_parts(halves);
 }
