@@ -99,7 +99,8 @@ static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *s
     uint64_t width = (uint64_t)p->picture->settings.width, height = (uint64_t)p->picture->settings.height;
     uint64_t number = ((uint64_t)numbers * height + (uint64_t)p->row) * width + (uint64_t)p->column;
     graze_answer answer;
-    path_memory known = {.alike = !is_spread(&p->picture->settings)};
+    path_memory known;
+    path_memory_begin(&known, !is_spread(&p->picture->settings));
     pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .memory = &known};
     shared_pixel shared;
     if (p->picture->shared && shared_light_find(p->picture->shared, p->column, p->row, &shared))

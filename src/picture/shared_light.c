@@ -52,7 +52,8 @@ static bool look(const shared_light *s, int column, int row, irradiance_record *
 }
 
 static void gather(const shared_light *s, uint64_t key, record *r) {
-    path_memory memory = {.alike = true};
+    path_memory memory;
+    path_memory_begin(&memory, true);
     const path_context context = {.scene = s->scene, .settings = s->trace, .cache = s->cache, .memory = &memory};
     for (uint32_t i = 0; i < s->rays; i++) {
         sampler points = sampler_start(key, i);

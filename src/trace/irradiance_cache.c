@@ -253,7 +253,8 @@ static void fill_cell(void *user, size_t index, int worker) {
     c->whole = is_in_one_place(f, c);
     if (!c->whole)
         return;
-    path_memory memory = {.alike = false};
+    path_memory memory;
+    path_memory_begin(&memory, false);
     half_cell halves[HALVES] = {{.taken = 0}, {.taken = 0}};
     for (int i = 0; i < HALVES; i++)
         halves[i].key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number * HALVES + (uint32_t)i);

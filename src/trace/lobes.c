@@ -283,8 +283,6 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
 }
 
 bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice, vec3 *direction) {
-    if (choice->diffuse + choice->specular == 0)
-        return false;
     double random[4] = {0, 0, 0, 0};
     draw_numbers(p, v->shading.specular_lobe, *choice, random);
     return go_on(p, v, lights, choice, false, random, direction);

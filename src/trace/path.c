@@ -158,10 +158,13 @@ static void follow(path *p, gathering *here) {
             gather_below(p, v, beyond);
         if (context->scene->mirror_count > 0 && !context->record)
             mirrored_light_add(p, v, &here->lobes);
+        const bool ends = !transmits && !lobes_may_reflect(&here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
-        if (!context->observer && !decided && known_light_is_all(p, v, &here->lights))
+        if (!ends && !context->observer && !decided && known_light_is_all(p, v, &here->lights))
             return;
         here->decided = !v->drawn;
+        if (ends)
+            return;
         vec3 direction;
         bool goes_on = transmits ? lobes_go_on(p, here, beyond, &direction)
                                  : lobes_reflect(p, v, &here->lights, &here->lobes, &direction);

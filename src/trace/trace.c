@@ -78,7 +78,8 @@ static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) 
 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,
                  graze_answer *answer, graze_hit *hit) {
-    path_memory known = {.alike = true};
+    path_memory known;
+    path_memory_begin(&known, true);
     request r = {.context = {.scene = scene, .settings = settings, .memory = &known}, .origin = ray->origin};
     double limit;
     *answer = (graze_answer){.converged = 1};

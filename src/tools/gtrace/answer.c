@@ -73,6 +73,10 @@ static bool trace_value(const answering *a, const graze_ray *ray, uint64_t numbe
     return answer.converged;
 }
 
+static bool trace(const answering *a, const graze_ray *ray, uint64_t number, ray_values *v, graze_hit *hit) {
+    return a->output.needs_mirror ? trace_parts(a, ray, number, v, hit) : trace_value(a, ray, number, v, hit);
+}
+
 bool answer_ray(const answering *a, const graze_ray *ray, uint64_t number, record_buffer *out) {
     bool converged = true;
     graze_hit hit = {.distance = GRAZE_FAR};
@@ -92,8 +96,7 @@ bool answer_ray(const answering *a, const graze_ray *ray, uint64_t number, recor
     if (!a->output.needs_value)
         graze_cast(a->scene, &a->settings, ray, &hit);
     else
-        converged =
-            a->output.needs_mirror ? trace_parts(a, ray, number, &v, &hit) : trace_value(a, ray, number, &v, &hit);
+        converged = trace(a, ray, number, &v, a->output.needs_hit ? &hit : NULL);
     v.contribution = v.value;
     ray_output_append(&a->output, out, &v);
     return converged;

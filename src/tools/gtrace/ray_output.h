@@ -20,6 +20,7 @@ typedef struct ray_output {
     bool needs_value;     /* some letter asks for light: else rays are only cast */
     bool needs_mirror;    /* some letter tells what a mirror reflects from the rest */
     bool needs_error;     /* e */
+    bool needs_hit;       /* some letter tells what is met, or where */
     bool casts_only;      /* no letter depends on light, so that irradiance makes no sense */
     int numbers;          /* in a record, each name counted as one: the header's NCOMP */
     char tree_only_value; /* V or W without t or T, for a warning; 0: none */
