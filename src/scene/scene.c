@@ -294,15 +294,19 @@ static bool is_glow_source(const graze_scene *scene, int primitive) {
     return material != RAD_VOID && scene->primitives[material].type == RAD_GLOW;
 }
 
-static bool sources_are_apart(const graze_scene *scene) {
-    for (size_t i = scene->first_source; i < scene->light_count; i++)
-        for (size_t k = scene->first_source; k < i; k++) {
-            const scene_light *a = &scene->lights[i], *b = &scene->lights[k];
-            double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
-            if (angle >= PI || between <= 2 * sin(angle / 2))
-                return false;
-        }
-    return true;
+static bool sources_overlap(const scene_light *a, const scene_light *b) {
+    double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
+    return angle >= PI || between <= 2 * sin(angle / 2);
+}
+
+static void note_overlaps(graze_scene *scene) {
+    for (size_t i = scene->first_source; i < scene->light_count; i++) {
+        scene_light *light = &scene->lights[i];
+        light->alone = true;
+        for (size_t k = scene->first_source; k < i && light->alone; k++)
+            light->alone = !sources_overlap(light, &scene->lights[k]);
+        scene->suns_overlap = scene->suns_overlap || !(light->alone || light->glow);
+    }
 }
 
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
@@ -318,7 +322,7 @@ static void add_surfaces(scene_builder *b) {
         for (size_t i = 0; i < b->own; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
-    scene->sources_apart = sources_are_apart(scene);
+    note_overlaps(scene);
 }
 
 /* Whether there is a light that may be known without sampling where it is seen wholly. */

@@ -261,6 +261,11 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
     }
 }
 
+vec3 appearance_smooth_normal(const graze_scene *scene, const path_hit *hit) {
+    const encounter of = meet(scene, hit, 0);
+    return lean(hit, &of, &of.effect);
+}
+
 static rgb straight_through(const scene_material *materials, const scene_material *m, const path_hit *hit,
                             const encounter *of, material_effect e) {
     if (m->emits || m->reflection || m->wgmd)
