@@ -78,7 +78,8 @@ typedef struct graze_hit {
     double distance;           /* GRAZE_FAR: nothing, or a source infinitely far away */
     graze_vec3 point;          /* on the surface; the origin where nothing was hit */
     graze_vec3 normal;         /* unit, on the surface's own front; null vector where nothing was hit */
-    graze_vec3 shading_normal; /* the same, perturbed by textures, or a mesh's; on the ray's side unless the surface
+    graze_vec3 shading_normal; /* the same, perturbed by textures (not for
+                                  GRAZE_IRRADIANCE_HIT), or a mesh's; on the ray's side unless the surface
                                   shines */
     double uv[2];              /* texture coordinates of a mesh; else 0 */
 } graze_hit;

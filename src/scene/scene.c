@@ -369,6 +369,15 @@ static graze_status read_description(scene_builder *b, const char *const *names,
     return has_copies(scene) ? rad_scene_read_parts(scene->description, b->report) : GRAZE_OK;
 }
 
+static graze_status add_definitions(scene_builder *b) {
+    const graze_scene_settings *s = b->settings;
+    graze_status status = s->definition_count > 0 ? need_modifiers(b) : GRAZE_OK;
+    for (size_t i = 0; i < s->definition_count && status == GRAZE_OK; i++)
+        status = material_library_define(material_modifiers_library(b->scene->modifiers), s->definitions[i].text,
+                                         s->definitions[i].file);
+    return status;
+}
+
 /* From primitives to surfaces, materials and lights. */
 static graze_status add_all(scene_builder *b) {
     graze_scene *scene = b->scene;
@@ -376,6 +385,8 @@ static graze_status add_all(scene_builder *b) {
     b->status = scene_check_models(b->settings, scene->primitives, scene->primitive_count, b->report);
     if (b->status == GRAZE_OK)
         b->status = allocate(b);
+    if (b->status == GRAZE_OK)
+        b->status = add_definitions(b);
     if (b->status != GRAZE_OK)
         return b->status;
     scene_check_ambient(b->settings, scene->primitives, scene->primitive_count, b->report);

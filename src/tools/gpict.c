@@ -68,7 +68,7 @@ int main(int argc, char **argv) {
     program p = {.options = gpict_options_default()};
     gpict_options_table(&p.options, p.table);
     option_table options = {.program = "gpict",
-                            .synopsis = "[options] scene...",
+                            .synopsis = "[options] [scene...]",
                             .summary = "Renders pictures of Radiance scenes to a stated error.",
                             .options = p.table,
                             .count = GPICT_TABLE_SIZE};

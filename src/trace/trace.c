@@ -55,7 +55,7 @@ void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, 
         return;
     path_context context = {.scene = scene, .settings = settings};
     path_hit found = path_cast(&context, ray->origin, direction, limit, -1);
-    *hit = describe_hit(scene, &found);
+    *hit = describe_hit(scene, &found, settings->quantity);
 }
 
 /* A ray as estimate_sample sees it. */
@@ -89,7 +89,7 @@ void graze_trace(const graze_scene *scene, const graze_trace_settings *settings,
     if (settings->quantity != GRAZE_IRRADIANCE) {
         r.first = path_cast(&r.context, ray->origin, r.direction, limit, -1);
         if (hit)
-            *hit = describe_hit(scene, &r.first);
+            *hit = describe_hit(scene, &r.first, settings->quantity);
     }
     estimate(settings, stream, sample_ray, &r, answer);
 }

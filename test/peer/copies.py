@@ -94,6 +94,14 @@ void glow ember 0 0 4 .5 .2 .1 0
 """
 
 
+# Irradiance where rays hit, by a sun: meshes have their corners' normals there, textures do not count.
+IRRADIANCE = {
+    "irradiance on a mesh with normals": SCENES["a mesh with normals at its points"],
+    "irradiance on a mesh with normals and a texture": SCENES["a texture on a mesh with normals"],
+}
+SUN = "void light far 0 0 3 1e6 1e6 1e6\nfar source sun 0 0 4 1 -.5 1 .1\n"
+
+
 def globe(normals, uv, materials):
     """A bumpy globe as a Wavefront object."""
     n, lines = 16, ["usemtl leaf"] if materials else []
@@ -182,18 +190,20 @@ def compare(theirs, ours):
 
 def main():
     random = np.random.default_rng(SEED)
-    print(f"1..{2 * len(SCENES)}")
+    print(f"1..{2 * len(SCENES) + 2 * len(IRRADIANCE)}")
     failed, number = 0, 0
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_files()
-        for name, text in SCENES.items():
-            write("scene.rad", FLOOR + (DENTS if "dents" in text else "") + text)
+        for name, text in [*SCENES.items(), *IRRADIANCE.items()]:
+            irradiance = name in IRRADIANCE
+            options = [*OPTIONS, "-i", "-av", "0", "0", "0", "-dv-"] if irradiance else OPTIONS
+            write("scene.rad", FLOOR + (DENTS if "dents" in text else "") + (SUN if irradiance else "") + text)
             run(["oconv", "scene.rad"], into="scene.oct")
             data = rays(random)
-            theirs = run(["rtrace", *OPTIONS, "scene.oct"], data)
+            theirs = run(["rtrace", *options, "scene.oct"], data)
             for file in "scene.rad", "scene.oct":
-                ours = run([os.path.join(BIN, "gtrace"), *OPTIONS, "--samples", "2", file], data)
+                ours = run([os.path.join(BIN, "gtrace"), *options, "--samples", "2", file], data)
                 different, first = compare(theirs, ours)
                 good = different <= 4
                 number, failed = number + 1, failed + (not good)
