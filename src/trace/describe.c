@@ -16,7 +16,9 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found, graze_qu
         const scene_material *material = &scene->materials[surface.material];
         primitive = surface.primitive;
         hit.normal = found->normal;
-        bool turned = found->behind && !material->emits;
+        /* As Radiance has it: what shines, and clear bodies, have one normal on both sides. */
+        bool clear = !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
+        bool turned = found->behind && !material->emits && !clear;
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
         scene_mesh_point mesh = scene_mesh_point_at(scene, found->surface, found->point);
         hit.uv[0] = mesh.uv[0];

@@ -143,6 +143,21 @@ check "... and of the rest" test "$(echo "0 -4 3 0 4 -3" | "$gtrace" -h -fac -ox
 echo "0 -4 3 0 4 -3" | "$gtrace" -h -i -orx mirror.rad 2>&1 >answer | grep -q 'no mirrors'
 result $? "-i has no mirrors, and says so"
 
+# What a sensor has of a mirror is nothing, and its value is not counted twice for that.
+check "-I with what mirrors show" test "$(value -I -orxv -w- | cut -f 1-3,4-6)" = "$(value -I -ovx -w- | awk '{ print "0.000000e+00\t0.000000e+00\t0.000000e+00\t" $4 "\t" $5 "\t" $6 }')"
+check "... the value is the same" test "$(value -I -ovl -w- | cut -f 1-3)" = "$(value -I | cut -f 1-3)"
+
+# A surface that is passed from behind is what was met; the light and the length seen are those of what is behind it.
+cat >hidden.rad <<'END_OF_SCENE'
+void plastic grey 0 0 5 .5 .5 .5 0 0
+void glow lit 0 0 4 2 2 2 0
+grey polygon sheet 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1
+lit polygon ceiling 0 0 12 -1 -1 3 -1 1 3 1 1 3 1 -1 3
+END_OF_SCENE
+check "-bv-" test "$(echo "0 0 .5 0 0 1" | "$gtrace" -h -bv- -ovlXLsmpnN hidden.rad)" = \
+    "$(printf '%e\t' 2 2 2 2.5 2.5 .5; printf 'sheet\tgrey\t'; printf '%e\t' 0 0 1 0 0 1 0 0 1)"
+check "... without light" test "$(echo "0 0 .5 0 0 1" | "$gtrace" -h -bv- -oLs hidden.rad)" = "$(printf '%e\tsheet\t' .5)"
+
 # Messages.
 "$gtrace" -e messages -h -oV room.rad <rays >answers 2>err
 check "-e: nothing on standard error" test ! -s err

@@ -99,7 +99,8 @@ IRRADIANCE = {
     "irradiance on a mesh with normals": SCENES["a mesh with normals at its points"],
     "irradiance on a mesh with normals and a texture": SCENES["a texture on a mesh with normals"],
 }
-SUN = "void light far 0 0 3 1e6 1e6 1e6\nfar source sun 0 0 4 1 -.5 1 .1\n"
+# Which is about 1: as wrong as rtrace's normals are.
+SUN = "void light far 0 0 3 4e5 4e5 4e5\nfar source sun 0 0 4 1 -.5 1 .1\n"
 
 
 def globe(normals, uv, materials):
@@ -169,7 +170,7 @@ def rays(random):
     return "".join("%.9g %.9g %.9g %.9g %.9g %.9g\n" % tuple(row) for row in np.hstack([origin, direction])).encode()
 
 
-def compare(theirs, ours):
+def compare(theirs, ours, value_error):
     """How many rays differ, and the first of them."""
     different, first = 0, None
     theirs, ours = theirs.decode().splitlines(), ours.decode().splitlines()
@@ -180,7 +181,7 @@ def compare(theirs, ours):
         numbers = np.array(x[:15], float), np.array(y[:15], float)
         # The point and the normals of what is infinitely far differ.
         far = numbers[0][3] > 1e9
-        close = np.allclose(numbers[0][:4], numbers[1][:4], rtol=2e-5, atol=1e-6)
+        close = np.allclose(numbers[0][:4], numbers[1][:4], rtol=2e-5, atol=value_error)
         close = close and (far or np.allclose(numbers[0][4:], numbers[1][4:], rtol=2e-5, atol=3e-5))
         if not close or (not far and x[15:] != y[15:]):
             different += 1
@@ -204,7 +205,7 @@ def main():
             theirs = run(["rtrace", *options, "scene.oct"], data)
             for file in "scene.rad", "scene.oct":
                 ours = run([os.path.join(BIN, "gtrace"), *options, "--samples", "2", file], data)
-                different, first = compare(theirs, ours)
+                different, first = compare(theirs, ours, 3e-5 if irradiance else 1e-6)
                 good = different <= 4
                 number, failed = number + 1, failed + (not good)
                 if first:
