@@ -17,6 +17,9 @@ typedef struct scene_builder {
 /* Notes that something has gone wrong, which has been reported. */
 void scene_fail(scene_builder *, graze_status);
 
+/* Sees to it that there are modifiers, which patterns and functions are compiled with. */
+graze_status scene_need_modifiers(scene_builder *);
+
 /* The material of a surface, or a negative number where it has none that can be used (reported). */
 int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
 

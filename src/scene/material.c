@@ -43,7 +43,7 @@ bool scene_material_is_pane(const graze_scene *scene, const scene_material *mate
 
 static int material_of(scene_builder *, int modifier);
 
-static graze_status need_modifiers(scene_builder *b) {
+graze_status scene_need_modifiers(scene_builder *b) {
     graze_scene *scene = b->scene;
     if (!scene->modifiers)
         scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
@@ -57,7 +57,7 @@ static graze_status find_chain(scene_builder *b, int modifier, material_chain *c
     *chain = (material_chain){.material = modifier};
     if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
         return GRAZE_OK;
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     if (status)
         return status;
     status = material_chain_find(chain, scene->modifiers, modifier);
@@ -95,7 +95,7 @@ static graze_status read_emitter(scene_builder *b, scene_material *material, con
 
 static graze_status read_function(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_FUNCTION;
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     if (status)
         return status;
     return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
@@ -104,7 +104,7 @@ static graze_status read_function(scene_builder *b, scene_material *material, co
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_WGMD;
     material->model = scene_choose_model(b->settings, p);
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     return status ? status : material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
 }
 
@@ -114,7 +114,7 @@ static graze_status read_reflector(scene_builder *b, scene_material *material, c
     material->reflector.model = scene_choose_model(b->settings, p);
     if (status || material->kind == SCENE_REFLECTOR)
         return status;
-    status = need_modifiers(b);
+    status = scene_need_modifiers(b);
     if (status)
         return status;
     return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);

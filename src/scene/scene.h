@@ -43,6 +43,7 @@ typedef struct scene_light {
     double spot_cosine; /* of the half angle of the cone */
     double spot_focus;  /* how far behind the light its cone begins */
     vec3 center;        /* of a source: the unit direction towards it */
+    bool alone;         /* of a source: no part of it is a source's that is before it in the scene's lights */
     double half_angle;  /* of a source, radians */
     bool only_seen;     /* it is in a copy: no light for others, but of a glow beyond its radius */
 } scene_light;
@@ -131,7 +132,7 @@ struct graze_scene {
     size_t light_count;
     size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
-    bool sources_apart;  /* no direction is in two of them */
+    bool suns_overlap;   /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
 };

@@ -165,6 +165,11 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
     }
 }
 
+vec3 appearance_smooth_normal(const graze_scene *scene, const path_hit *hit) {
+    const encounter of = encounter_meet(scene, hit, 0);
+    return encounter_lean(hit, &of, &of.effect);
+}
+
 static rgb through_reflector(const scene_material *m, const path_hit *hit, const encounter *of,
                              const material_effect *e) {
     graze_material reflector = patterned(&m->reflector, e->color);

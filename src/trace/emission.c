@@ -44,7 +44,7 @@ rgb emission_radiance(const path *p, const path_hit *hit, bool lights) {
                             : light_radiance(light, hit->direction, hit->normal));
 }
 
-rgb emission_found(const path *p, const path_hit *hit) {
+rgb emission_found_of(const path *p, const path_hit *hit) {
     const scene_light *light = &p->context->scene->lights[hit->light];
     light_role role = light_role_at(light, hit->distance + p->last.travelled);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
@@ -62,4 +62,18 @@ rgb emission_found(const path *p, const path_hit *hit) {
         return rgb_gray(0);
     }
     return rgb_multiply(throughput, patterned(p, hit, radiance));
+}
+
+rgb emission_found(const path *p, const path_hit *hit) {
+    const graze_scene *scene = p->context->scene;
+    rgb found = emission_found_of(p, hit);
+    if (!scene->suns_overlap || hit->surface >= 0 || !lobe_scatters(p->last.lobe))
+        return found;
+    for (size_t i = (size_t)hit->light + 1; i < scene->light_count && !scene->lights[i].glow; i++)
+        if (light_source_shines_from(scene, (int)i, hit->direction)) {
+            path_hit other = *hit;
+            other.light = (int)i;
+            found = rgb_add(found, emission_found_of(p, &other));
+        }
+    return found;
 }

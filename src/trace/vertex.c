@@ -66,6 +66,17 @@ static bool looks_through(const path *p, const scene_material *material, int64_t
     return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
 }
 
+/* For the irradiance where a ray hits first: textures do not count, as in Radiance, but the normals of a mesh do. */
+static void prepare_probe(const path *p, const path_hit *hit, vertex *v) {
+    const graze_scene *scene = p->context->scene;
+    vec3 normal = v->normal;
+    if (hit->surface >= (int64_t)scene->surface_count) {
+        normal = appearance_smooth_normal(scene, hit);
+        v->leans = !vec3_is_same(normal, v->normal);
+    }
+    v->shading = probe(normal, vec3_negate(hit->direction));
+}
+
 bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     if (hit->surface < 0)
         return false;
@@ -89,7 +100,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         return true;
     }
     if (irradiance) {
-        v->shading = probe(normal, view);
+        prepare_probe(p, hit, v);
         v->ambient = v->shading.diffuse;
         v->gloss_is_ambient = false;
         return true;
