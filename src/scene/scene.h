@@ -51,9 +51,10 @@ typedef enum scene_material_kind {
     SCENE_REFLECTOR, /* what include/graze/material.h knows: opaque, transmitting, clear, or a mirror */
     SCENE_ORIENTED,  /* the same, its orientation by functions */
     SCENE_EMITTER,   /* it shines */
-    SCENE_FUNCTION,  /* it reflects lights by a function */
+    SCENE_FUNCTION,  /* it scatters lights by a function */
     SCENE_WGMD,      /* WGMDfunc */
     SCENE_MIXTURE,   /* it is one of two materials, or both in part */
+    SCENE_NOTHING,   /* void, in a mixture: light goes straight on */
 } scene_material_kind;
 
 /* What a material does, with all that modifies it. */
