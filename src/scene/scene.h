@@ -147,6 +147,11 @@ static inline bool scene_material_refracts(const scene_material *m) {
     return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_DIELECTRIC;
 }
 
+/* Whether it is there from behind, too, where back faces are not visible. */
+static inline bool scene_material_has_back(const scene_material *m) {
+    return scene_material_refracts(m) || (m->kind == SCENE_FUNCTION && m->reflection->keeps_normal);
+}
+
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,
  * or is an alias of ("void" where there is none; of a mixture of materials its own). */
 const char *scene_name(const graze_scene *, int primitive);
