@@ -334,6 +334,8 @@ def cases():
     yield Case("WGMDfunc from below", "lamp wgmd", aim([0.4, -2, -3], squares), "-ab 0 -st 1", repeat=256)
     for name, eye in [("from above", [0.4, -2, 3]), ("from below", [0.4, -2, -3])]:
         yield Case("transmission by functions " + name, "lamp letting", aim(eye, squares), "-ab 0 -st 1", repeat=256)
+    yield Case("transmission by functions, one bounce", "lamp letting wall", aim([0.4, -2, -3], squares[squares[:, 0] < 0][::3]),
+               "-ab 1 -st 1", "-ad 1024", repeat=64, samples=8192)
     yield Case("reflectance functions, one bounce", "lamp functions wall", aim([0.4, -2, 3], squares[squares[:, 0] < 0][::3]), "-ab 1", "-ad 1024", repeat=64)
     # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
     yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
