@@ -11,6 +11,7 @@ typedef struct scene_builder {
     const graze_report *report;
     size_t own, own_surfaces; /* of the primitives, those that are the scene's and no copied part's */
     int *material_of;         /* by primitive: index into scene->materials, or -1 */
+    int nothing;              /* index of the one that is SCENE_NOTHING, or -1 */
     graze_status status;
 } scene_builder;
 

@@ -17,9 +17,11 @@ static bool is_mirror(const scene_material *material) {
         return probe.specular_lobe == GRAZE_LOBE_MIRROR;
     case SCENE_WGMD:
         return material->wgmd->may_mirror;
-    case SCENE_EMITTER:
     case SCENE_FUNCTION:
+        return material->reflection->mirrors;
+    case SCENE_EMITTER:
     case SCENE_MIXTURE:
+    case SCENE_NOTHING:
         break;
     }
     return false;
@@ -33,9 +35,13 @@ bool scene_material_is_pane(const graze_scene *scene, const scene_material *mate
     case SCENE_MIXTURE:
         return scene_material_is_pane(scene, &scene->materials[material->fore]) ||
                scene_material_is_pane(scene, &scene->materials[material->back]);
-    case SCENE_EMITTER:
     case SCENE_FUNCTION:
+        return material->reflection->passes;
     case SCENE_WGMD:
+        return material->wgmd->may_be_clear;
+    case SCENE_NOTHING:
+        return true;
+    case SCENE_EMITTER:
         break;
     }
     return false;
@@ -66,15 +72,28 @@ static graze_status find_chain(scene_builder *b, int modifier, material_chain *c
     return status;
 }
 
+/* Half of a mixture: of void, or of patterns with no material behind them, light gets straight through, uncoloured. */
+static int mixed_material(scene_builder *b, int modifier) {
+    graze_scene *scene = b->scene;
+    material_chain chain = {.material = RAD_VOID};
+    if (modifier != RAD_VOID && material_chain_find(&chain, scene->modifiers, modifier))
+        return material_of(b, modifier);
+    if (chain.material != RAD_VOID)
+        return material_of(b, modifier);
+    if (b->nothing < 0) {
+        b->nothing = (int)scene->material_count++;
+        scene->materials[b->nothing] = (scene_material){.kind = SCENE_NOTHING, .primitive = RAD_VOID};
+    }
+    return b->nothing;
+}
+
 /* Both materials of a mixture. */
 static graze_status read_mixture(scene_builder *b, scene_material *material, const material_modifier *mixture) {
     const rad_primitive *p = mixture->primitive;
-    if (mixture->fore == RAD_VOID || mixture->back == RAD_VOID)
-        return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
     material->kind = SCENE_MIXTURE;
     material->share = mixture;
-    material->fore = material_of(b, mixture->fore);
-    material->back = material_of(b, mixture->back);
+    material->fore = mixed_material(b, mixture->fore);
+    material->back = mixed_material(b, mixture->back);
     if (material->fore < 0 || material->back < 0)
         return b->status;
     const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];

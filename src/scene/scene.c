@@ -205,7 +205,7 @@ static graze_status allocate(scene_builder *b) {
     scene->memory = arena_create();
     scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
     scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
-    scene->materials = calloc(modifiers + 1, sizeof *scene->materials);
+    scene->materials = calloc(modifiers + 1, sizeof *scene->materials); /* one may be void */
     scene->lights = calloc(scene->primitive_count + 1, sizeof *scene->lights);
     b->material_of = malloc((scene->primitive_count + 1) * sizeof *b->material_of);
     if (!scene->memory || !scene->shapes || !scene->surfaces || !scene->materials || !scene->lights || !b->material_of)
@@ -283,8 +283,11 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     graze_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return report_out_of_memory(report);
-    scene_builder b = {
-        .scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
+    scene_builder b = {.scene = scene,
+                       .settings = settings ? settings : &as_described,
+                       .report = report,
+                       .nothing = -1,
+                       .status = GRAZE_OK};
     b.status = read_description(&b, descriptions, count);
     if (b.status == GRAZE_OK)
         b.status = add_all(&b);

@@ -52,9 +52,10 @@ typedef enum scene_material_kind {
     SCENE_REFLECTOR, /* what include/graze/material.h knows: opaque, transmitting, clear, or a mirror */
     SCENE_ORIENTED,  /* the same, its orientation by functions */
     SCENE_EMITTER,   /* it shines */
-    SCENE_FUNCTION,  /* it reflects lights by a function */
+    SCENE_FUNCTION,  /* it scatters lights by a function */
     SCENE_WGMD,      /* WGMDfunc */
     SCENE_MIXTURE,   /* it is one of two materials, or both in part */
+    SCENE_NOTHING,   /* void, in a mixture: light goes straight on */
 } scene_material_kind;
 
 /* What a material does, with all that modifies it. */
@@ -145,6 +146,11 @@ static inline bool scene_material_emits(const scene_material *m) {
 /* Whether it bounds a clear body that refracts. */
 static inline bool scene_material_refracts(const scene_material *m) {
     return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_DIELECTRIC;
+}
+
+/* Whether it is there from behind, too, where back faces are not visible. */
+static inline bool scene_material_has_back(const scene_material *m) {
+    return scene_material_refracts(m) || (m->kind == SCENE_FUNCTION && m->reflection->keeps_normal);
 }
 
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,

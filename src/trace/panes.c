@@ -9,9 +9,9 @@ static rgb pane_transmittance(const path_context *context, const geometry_hit *h
                               double travelled) {
     const graze_scene *scene = context->scene;
     double slope = vec3_dot(hit->normal, direction);
-    if (slope > 0 && !context->settings->back_faces_visible)
-        return rgb_gray(1);
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    if (slope > 0 && !context->settings->back_faces_visible && !scene_material_has_back(material))
+        return rgb_gray(1);
     if (appearance_is_plain(scene, material, hit->surface))
         return graze_material_straight_through(&material->reflector, fabs(slope));
     const path_hit at = {.surface = hit->surface,

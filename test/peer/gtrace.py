@@ -332,6 +332,10 @@ def cases():
     yield Case("reflectance functions from below", "lamp functions", aim([0.4, -2, -3], squares), "-ab 0", repeat=256)
     yield Case("WGMDfunc", "lamp wgmd", aim([0.4, -2, 3], squares), "-ab 0 -st 1", repeat=256)
     yield Case("WGMDfunc from below", "lamp wgmd", aim([0.4, -2, -3], squares), "-ab 0 -st 1", repeat=256)
+    for name, eye in [("from above", [0.4, -2, 3]), ("from below", [0.4, -2, -3])]:
+        yield Case("transmission by functions " + name, "lamp letting", aim(eye, squares), "-ab 0 -st 1", repeat=256)
+    yield Case("transmission by functions, one bounce", "lamp letting wall", aim([0.4, -2, -3], squares[squares[:, 0] < 0][::3]),
+               "-ab 1 -st 1", "-ad 1024", repeat=64, samples=8192)
     yield Case("reflectance functions, one bounce", "lamp functions wall", aim([0.4, -2, 3], squares[squares[:, 0] < 0][::3]), "-ab 1", "-ad 1024", repeat=64)
     # Radiance's diffuse interreflection goes by the surface's own normal: not where there are textures.
     yield Case("patterns, one bounce", "lamp patterns wall", aim([0.3, -1, 5], np.vstack([tiles[:72:4], tiles[99::4]])), "-ab 1 -st 1", "-ad 2048", repeat=64,
@@ -348,6 +352,14 @@ def cases():
                "-ad 1024", repeat=64, samples=16384)
     yield Case("irradiance where rays hit, behind panes", "panes",
                aim([-.5, -3.5, 2.6], grid([-2.5, -2.5, 0], [-.2, 2.5, 0], 36, clear)), "-i -ab 0", repeat=64)
+    below = sensors([-2, -2, -1], [2, 2, -1], 100, up, clear)
+    for name, scene in [("WGMDfunc that transmits", "veils"), ("mixtures with void", "holes")]:
+        yield Case(f"floor under {name}, irradiance", f"lamp {scene}", below, "-I -ab 0", repeat=256)
+        for side, eye in [("from above", [.2, -.4, 14]), ("from below", [.3, -1, -.8])]:
+            yield Case(f"{name} {side}", f"lamp {scene}", aim(eye, grid([-2, -2, 0], [2, 2, 0], 100, clear)), "-ab 0", "-ss 64",
+                       repeat=256, samples=8192)
+    yield Case("rippled panes", "ripples", aim([.4, -4, 1.2], grid([-2, 0, 0], [3, 0, 2], 144, clear)), "-ab 0", "-ss 64", repeat=256,
+               samples=8192)
     sheets = grid([-.95, 0, .1], [1.95, 0, 1.9], 144, clear)
     yield Case("sheets before lamps", "frosted", aim([.4, -2, 1.4], sheets), "-ab 0", "-ds .001 -ss 64", repeat=256, samples=8192)
     yield Case("sheets before a glow", "frosted_glow", aim([.5, -8, 1], sheets), "-ab 1", "-ss 64 -ad 1024", repeat=64, samples=16384)
