@@ -43,6 +43,21 @@ static graze_material patterned(const graze_material *m, rgb pattern) {
     return patterned;
 }
 
+/* Textures bend what goes straight on through panes, as in Radiance; but light on its way to a point that scatters it
+ * goes straight, as shadow rays do. What smoothes a mesh bends nothing. */
+static void bend(const path *p, const path_hit *hit, const encounter *of, const material_effect *e,
+                 const graze_material *m, vertex *v) {
+    graze_surface *s = &v->shading;
+    bool rough = s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
+    if (m->kind == GRAZE_DIELECTRIC || (!rough && lobe_scatters(p->last.lobe)) ||
+        vec3_dot(of->effect.perturbation, of->effect.perturbation) > 0)
+        return;
+    double by = m->kind == GRAZE_GLASS ? 2 * (1 - m->refraction) : -1;
+    vec3 bent = vec3_add_scaled(hit->direction, by, encounter_perturbation(hit, of, e));
+    if (vec3_dot(bent, v->normal) < 0 && vec3_dot(bent, s->n) < 0)
+        s->transmitted = vec3_normalize(bent);
+}
+
 static void prepare_reflector(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                               const material_effect *e, vertex *v) {
     graze_material reflector = patterned(&m->reflector, e->color);
@@ -60,6 +75,8 @@ static void prepare_reflector(const path *p, const path_hit *hit, const encounte
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
     if (reflector.kind == GRAZE_GLASS && v->shading.transmits)
         v->shading.transmitted_specular = encounter_colored(v->shading.transmitted_specular, e->color);
+    if (v->leans && v->shading.transmits)
+        bend(p, hit, of, e, &reflector, v);
     vertex_find_ambient(p, v, &reflector);
 }
 

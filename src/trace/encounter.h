@@ -23,7 +23,10 @@ static inline vec3 encounter_as_written(const encounter *e, vec3 direction) {
 /* What modifiers (null: none) do, after others. */
 material_effect encounter_add_effect(const material_modifier *, const material_ray *, material_effect before);
 
-/* The hit's normal on the viewer's side, perturbed: perturbations are for the surface's own. */
+/* What textures, which are for the surface's own normal, add to that on the viewer's side; in the scene. */
+vec3 encounter_perturbation(const path_hit *, const encounter *, const material_effect *);
+
+/* The hit's normal on the viewer's side, perturbed. */
 vec3 encounter_lean(const path_hit *, const encounter *, const material_effect *);
 
 /* A colour under a pattern: negative ones reflect nothing, and what is too large would overflow. */
