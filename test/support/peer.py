@@ -16,10 +16,12 @@ Three results a case: every ray agrees within 4.5 standard errors; the mean squa
 independent errors as large as both sides say; the sums over all rays agree within 4 standard errors and 0.5 %. Student's t
 of the few repetitions is turned into a normal deviate first (Wallace's approximation).
 
-A scene is given by the names of files in test/peer/scenes, or as text of several lines. test/peer/NAME.py [CASE...] runs the cases
+A scene is given by the names of files in test/peer/scenes, or as text of several lines, where FOLDER is
+one for its files. test/peer/NAME.py [CASE...] runs the cases
 named. GRAZE_PEER_SEED sets the seed of both sides (1)."""
 
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -41,8 +43,9 @@ CONVERGED = "-u+ -dj 1 -ds .01 -dt 0 -dc 1 -dr 0 -st 0 -lw 1e-6 -lr -12 -aa 0 -a
 
 def run(command, data, **environment):
     done = subprocess.run(command, input=data, capture_output=True, cwd=SCENES, env={**os.environ, **environment})
-    # A scene of glows has none of what Radiance calls light sources.
-    errors = done.stderr.decode(errors="replace").replace("rtrace: warning - no light sources found\n", "")
+    # A scene of glows has none of what Radiance calls light sources; and it does not always hit its thinnest cylinders.
+    errors = done.stderr.decode(errors="replace")
+    errors = re.sub('rtrace: warning - (no light sources found|aiming failure for light source ".*")\n', "", errors)
     if done.returncode != 0 or errors:
         raise RuntimeError(f"{' '.join(command)}: status {done.returncode}: {errors[:2000]}")
     return done.stdout
@@ -81,7 +84,7 @@ class Radiance:
             if scenes not in self.written:
                 self.written[scenes] = os.path.join(self.folder, f"scene{len(self.written)}.rad")
                 with open(self.written[scenes], "w") as file:
-                    file.write(scenes)
+                    file.write(scenes.replace("FOLDER", self.folder))
             return [self.written[scenes]]
 
     def octree(self, scenes, *options):
