@@ -45,7 +45,9 @@ def what_counts(random):
     yield Case("the ambient value on every material", tiles, looks(len(MATERIALS), random), "-ab 0 -st 1 -av .3 .2 .1", repeat=16,
                own_repeat=512, samples=1024)
     yield Case("irradiance on every material", tiles, looks(len(MATERIALS), random, each=3), "-i -ab 0", repeat=16)
-    yield Case("gloss that counts as diffuse", tiles, looks(len(MATERIALS), random, each=3), "-ab 0 -st .3 -av .3 .2 .1",
+    # What Radiance samples of ashik2's gloss it does not weight by the model.
+    some = [material for material in MATERIALS if "ashik2" not in material]
+    yield Case("gloss that counts as diffuse", LAMPS + SKY + board(some, "void"), looks(len(some), random, each=3), "-ab 0 -st .3 -av .3 .2 .1",
                "-ss 4096", repeat=24, own_repeat=512, samples=8192)
     across = aim([0.3, 1, 1.2], grid([-0.9, 0, 0.1], [0.9, 0, 1.9], 49, random))
     across[:, 3:] *= np.where(np.arange(len(across)) % 2, 1, -1)[:, None]
