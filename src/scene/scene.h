@@ -89,7 +89,7 @@ typedef struct scene_surface {
     int material;    /* index into materials */
     int light;       /* index into lights, or -1 */
     bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;    /* flat, of the material `mirror`, not patterned */
+    bool mirrors;    /* flat, of the material `mirror`, without textures */
 } scene_surface;
 
 /* An instance or a mesh in a part. */

@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "scene/surface.h"
+#include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/emission.h"
 #include "trace/irradiance_cache.h"
@@ -84,6 +85,14 @@ static void take_indirect(path *p, const vertex *v) {
     p->indirect_error = error;
 }
 
+/* Of patterns on clear bodies counts what they are where light leaves, as in Radiance. */
+static rgb medium_at(const path *p, const path_hit *hit, const scene_material *m) {
+    if (!m->modifiers)
+        return graze_material_attenuation(&m->reflector, hit->behind, 1);
+    const graze_material patterned = appearance_reflector(p->context->scene, m, hit, p->length);
+    return graze_material_attenuation(&patterned, hit->behind, 1);
+}
+
 /* What the way to a hit through a clear body leaves of the light; and of which body. */
 static void attenuate(path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
@@ -92,7 +101,7 @@ static void attenuate(path *p, const path_hit *hit) {
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
     /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
     if (scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
-        p->medium = graze_material_attenuation(&material->reflector, hit->behind, 1);
+        p->medium = medium_at(p, hit, material);
     if (rgb_min(p->medium) == 1)
         return;
     rgb left = {pow(p->medium.r, hit->distance), pow(p->medium.g, hit->distance), pow(p->medium.b, hit->distance)};
