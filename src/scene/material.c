@@ -26,6 +26,7 @@ static bool is_mirror(const scene_material *material) {
 }
 
 bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
+    material = scene_material_seen(scene, material);
     switch (material->kind) {
     case SCENE_REFLECTOR:
     case SCENE_ORIENTED:
@@ -40,8 +41,6 @@ bool scene_material_is_pane(const graze_scene *scene, const scene_material *mate
     }
     return false;
 }
-
-static int material_of(scene_builder *, int modifier);
 
 static graze_status need_modifiers(scene_builder *b) {
     graze_scene *scene = b->scene;
@@ -73,8 +72,8 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
         return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
     material->kind = SCENE_MIXTURE;
     material->share = mixture;
-    material->fore = material_of(b, mixture->fore);
-    material->back = material_of(b, mixture->back);
+    material->fore = scene_material_of_modifier(b, mixture->fore);
+    material->back = scene_material_of_modifier(b, mixture->back);
     if (material->fore < 0 || material->back < 0)
         return b->status;
     const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
@@ -82,6 +81,8 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
         return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
     if (scene_material_refracts(fore) || scene_material_refracts(back))
         return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
+    material->fore = (int)(scene_material_seen(b->scene, fore) - b->scene->materials);
+    material->back = (int)(scene_material_seen(b->scene, back) - b->scene->materials);
     return GRAZE_OK;
 }
 
@@ -90,7 +91,10 @@ static graze_status read_emitter(scene_builder *b, scene_material *material, con
     material->seen_light = -1;
     graze_status status = emitter_to_light(&material->light, p, b->report);
     material->light.modifiers = material->modifiers;
-    return status;
+    if (status || p->type != RAD_ILLUM)
+        return status;
+    b->scene->has_secondary = true;
+    return scene_read_alternate(b, p, &material->alternate);
 }
 
 static graze_status read_function(scene_builder *b, scene_material *material, const rad_primitive *p) {
@@ -133,7 +137,7 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
 static int add_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain;
-    scene_material made = {.kind = SCENE_REFLECTOR};
+    scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1};
     graze_status status = find_chain(b, modifier, &chain);
     if (!status) {
         made.primitive = chain.material;
@@ -152,8 +156,7 @@ static int add_material(scene_builder *b, int modifier) {
     return (int)scene->material_count++;
 }
 
-/* The material of a modifier, or a negative number where it has none that can be used (reported). */
-static int material_of(scene_builder *b, int modifier) {
+int scene_material_of_modifier(scene_builder *b, int modifier) {
     if (b->material_of[modifier] == -1)
         b->material_of[modifier] = add_material(b, modifier);
     return b->material_of[modifier];
@@ -164,5 +167,5 @@ int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
         scene_fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
         return MATERIAL_REFUSED;
     }
-    return material_of(b, surface->modifier);
+    return scene_material_of_modifier(b, surface->modifier);
 }

@@ -201,7 +201,8 @@ static graze_status allocate(scene_builder *b) {
     scene->memory = arena_create();
     scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
     scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
-    scene->materials = calloc(modifiers + 1, sizeof *scene->materials);
+    scene->materials = calloc(modifiers + 1, sizeof *scene->materials); /* with room for one that is nothing */
+    scene->nothing = -1;
     scene->lights = calloc(scene->primitive_count + 1, sizeof *scene->lights);
     b->material_of = malloc((scene->primitive_count + 1) * sizeof *b->material_of);
     if (!scene->memory || !scene->shapes || !scene->surfaces || !scene->materials || !scene->lights || !b->material_of)

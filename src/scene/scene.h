@@ -36,6 +36,7 @@ typedef struct scene_light {
     const shape *shape;                 /* null for a source */
     int surface;                        /* index of the shape; -1 for a source */
     int primitive;                      /* of the surface, in the description */
+    bool secondary;                     /* of the material illum: its surface is seen as another material */
     bool glow;
     double glow_radius; /* of a glow: where it is LIGHT_DIRECT; 0: nowhere; negative: LIGHT_NONE everywhere */
     bool spot;
@@ -60,6 +61,7 @@ typedef enum scene_material_kind {
 typedef struct scene_material {
     scene_material_kind kind;
     int primitive;                      /* the material, or the mixture, in the description */
+    int alternate;                      /* index into materials of what it is seen as; -1: as itself */
     const material_modifier *modifiers; /* patterns and textures, or null */
     union {
         struct { /* SCENE_REFLECTOR, SCENE_ORIENTED */
@@ -121,12 +123,14 @@ struct graze_scene {
     size_t part_count;
     scene_material *materials;
     size_t material_count;
+    int nothing;                   /* the material that lets all light through; -1: nothing is seen as that */
     material_modifiers *modifiers; /* null where no material has any */
     bool has_mirrors;              /* or dielectrics: light comes by ways that no light sample finds */
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
     bool has_panes;      /* surfaces that light goes straight through */
     bool has_refraction; /* dielectrics */
+    bool has_secondary;  /* lights of the material illum */
     scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;
@@ -135,6 +139,13 @@ struct graze_scene {
     light_tree light_tree;
     geometry *geometry;
 };
+
+/* What a material is seen as, by all but light samples. */
+static inline const scene_material *scene_material_seen(const graze_scene *scene, const scene_material *material) {
+    while (material->alternate >= 0)
+        material = &scene->materials[material->alternate];
+    return material;
+}
 
 /* Whether the material shines: it is then no more than that. */
 static inline bool scene_material_emits(const scene_material *m) {

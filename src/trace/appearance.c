@@ -153,7 +153,7 @@ void appearance_prepare(const path *p, const path_hit *hit, const scene_material
 }
 
 vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double length) {
-    const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    const scene_material *m = scene_material_at(scene, hit->surface);
     const encounter of = encounter_meet(scene, hit, length);
     material_effect e = of.effect;
     for (;;) {

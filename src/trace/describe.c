@@ -13,7 +13,7 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
     int primitive = -1;
     if (found->surface >= 0) {
         const scene_surface surface = scene_surface_at(scene, found->surface);
-        const scene_material *material = &scene->materials[surface.material];
+        const scene_material *material = scene_material_seen(scene, &scene->materials[surface.material]);
         primitive = surface.primitive;
         hit.normal = found->normal;
         bool turned = found->behind && !scene_material_emits(material);

@@ -6,7 +6,7 @@
 
 /* Whether the surface bounds a clear body, which is looked at from inside, too. */
 static bool is_solid(const graze_scene *scene, int64_t surface) {
-    const scene_material *material = &scene->materials[scene_surface_at(scene, surface).material];
+    const scene_material *material = scene_material_at(scene, surface);
     return scene_material_refracts(material);
 }
 

@@ -87,10 +87,11 @@ static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror
     vec3 at = shape_pull(&scene->shapes[mirror], vec3_add_scaled(v->point, to_mirror, sample->direction));
     double left = sample->distance < GEOMETRY_FAR ? sample->distance - to_mirror : GEOMETRY_FAR;
     geometry_ray second = {.origin = at, .direction = onward, .far = left, .from = mirror};
-    rgb before = panes_transmittance(p->context, &first, p->length, mirror);
+    rgb before = panes_transmittance(p->context, &first, p->length, mirror, true);
     if (!(left > 0) || rgb_is_black(before))
         return rgb_gray(0);
-    rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface);
+    rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface,
+                                     light_is_proper(scene, sample->light));
     return rgb_multiply(before, behind);
 }
 

@@ -71,7 +71,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         return false;
     const graze_scene *scene = p->context->scene;
     const scene_surface surface = scene_surface_at(scene, hit->surface);
-    const scene_material *material = &scene->materials[surface.material];
+    const scene_material *material = scene_material_seen(scene, &scene->materials[surface.material]);
     if (scene_material_emits(material) || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);

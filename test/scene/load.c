@@ -20,7 +20,6 @@ static void unsupported_types_are_refused_by_name(void **state) {
     (void)state;
     assert_refused("\nvoid mist pane 0 0 0\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: mist pane", "not supported");
     assert_refused("void BSDF d 6 0 a.xml 0 0 1 . 0 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: BSDF d", "not supported");
-    assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
                    "cannot find octree file \"other.oct\"");
     assert_refused("void specfile p 1 noise 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
@@ -39,6 +38,16 @@ static void lights_are_checked(void **state) {
     assert_refused("void spotlight l 0 0 7 1 1 1 10 0 0 0 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "null");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 0 1\n", "source s", "direction");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 0\n", "source s", "angle");
+}
+
+static void illums_are_checked(void **state) {
+    (void)state;
+    assert_refused("void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "1 string at most");
+    assert_refused("void illum i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "no modifier 'a' before");
+    assert_refused("void light l 0 0 3 1 1 1 void illum i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "illum i",
+                   "seen as l, which shines");
+    assert_refused("void plastic p 0 0 3 1 1 1 void illum i 1 p 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "plastic p",
+                   "real");
 }
 
 static void all_mistakes_are_told_at_once(void **state) {
@@ -172,6 +181,7 @@ int main(void) {
         cmocka_unit_test(unsupported_types_are_refused_by_name),
         cmocka_unit_test(surfaces_need_a_material),
         cmocka_unit_test(lights_are_checked),
+        cmocka_unit_test(illums_are_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),
