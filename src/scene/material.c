@@ -19,6 +19,7 @@ static bool is_mirror(const scene_material *material) {
         return material->wgmd->may_mirror;
     case SCENE_EMITTER:
     case SCENE_FUNCTION:
+    case SCENE_PRISM:
     case SCENE_MIXTURE:
         break;
     }
@@ -36,6 +37,7 @@ bool scene_material_is_pane(const graze_scene *scene, const scene_material *mate
                scene_material_is_pane(scene, &scene->materials[material->back]);
     case SCENE_EMITTER:
     case SCENE_FUNCTION:
+    case SCENE_PRISM:
     case SCENE_WGMD:
         break;
     }
@@ -79,8 +81,8 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
     const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
     if (scene_material_emits(fore) || scene_material_emits(back))
         return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
-    if (scene_material_refracts(fore) || scene_material_refracts(back))
-        return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
+    if (scene_material_bends(fore) || scene_material_bends(back))
+        return rad_primitive_error(b->report, p, "a mixture with a dielectric or a prism is not supported");
     material->fore = (int)(scene_material_seen(b->scene, fore) - b->scene->materials);
     material->back = (int)(scene_material_seen(b->scene, back) - b->scene->materials);
     return GRAZE_OK;
@@ -103,6 +105,13 @@ static graze_status read_function(scene_builder *b, scene_material *material, co
     if (status)
         return status;
     return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
+}
+
+static graze_status read_prism(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_PRISM;
+    graze_status status = need_modifiers(b);
+    return status ? status
+                  : material_prism_compile(&material->prism, material_modifiers_library(b->scene->modifiers), p);
 }
 
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
@@ -129,6 +138,8 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
         return read_emitter(b, material, p);
     if (material_reflects_by_function(p->type))
         return read_function(b, material, p);
+    if (material_is_prism(p->type))
+        return read_prism(b, material, p);
     if (p->type == RAD_WGMDFUNC)
         return read_wgmd(b, material, p);
     return read_reflector(b, material, p);
@@ -150,9 +161,9 @@ static int add_material(scene_builder *b, int modifier) {
         return MATERIAL_REFUSED;
     }
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || scene_material_refracts(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || scene_material_bends(&made);
     scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
-    scene->has_refraction = scene->has_refraction || scene_material_refracts(&made);
+    scene->has_refraction = scene->has_refraction || scene_material_bends(&made);
     return (int)scene->material_count++;
 }
 

@@ -11,6 +11,7 @@
 #include "graze/material.h"
 #include "graze/scene.h"
 #include "material/orientation.h"
+#include "material/prism.h"
 #include "material/reflection.h"
 #include "material/wgmd.h"
 #include "rad/scene_file.h"
@@ -54,6 +55,7 @@ typedef enum scene_material_kind {
     SCENE_EMITTER,   /* it shines */
     SCENE_FUNCTION,  /* it reflects lights by a function */
     SCENE_WGMD,      /* WGMDfunc */
+    SCENE_PRISM,     /* it sends light on in directions by functions */
     SCENE_MIXTURE,   /* it is one of two materials, or both in part */
 } scene_material_kind;
 
@@ -73,6 +75,7 @@ typedef struct scene_material {
             int seen_light;    /* index into lights of the one that surfaces in copies are; or -1 */
         };
         const material_reflection *reflection; /* SCENE_FUNCTION */
+        const material_prism *prism;           /* SCENE_PRISM */
         struct {                               /* SCENE_WGMD */
             const material_wgmd *wgmd;
             graze_brdf_model model;
@@ -129,7 +132,7 @@ struct graze_scene {
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
     bool has_panes;      /* surfaces that light goes straight through */
-    bool has_refraction; /* dielectrics */
+    bool has_refraction; /* dielectrics, prisms */
     bool has_secondary;  /* lights of the material illum */
     scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
@@ -155,6 +158,11 @@ static inline bool scene_material_emits(const scene_material *m) {
 /* Whether it bounds a clear body that refracts. */
 static inline bool scene_material_refracts(const scene_material *m) {
     return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_DIELECTRIC;
+}
+
+/* Whether light comes through it, but not straight on: from either side, and where no light sample looks for it. */
+static inline bool scene_material_bends(const scene_material *m) {
+    return m->kind == SCENE_PRISM || scene_material_refracts(m);
 }
 
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,

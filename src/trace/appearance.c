@@ -141,6 +141,9 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
     case SCENE_MIXTURE:
         prepare_mixture(p, hit, of, m, e, v);
         break;
+    case SCENE_PRISM:
+        appearance_prepare_prism(p, hit, of, m->prism, v);
+        break;
     case SCENE_EMITTER:
     case SCENE_WGMD:
         break;
@@ -189,6 +192,7 @@ static rgb straight_through(const scene_material *materials, const scene_materia
     case SCENE_EMITTER:
     case SCENE_FUNCTION:
     case SCENE_WGMD:
+    case SCENE_PRISM:
         break;
     }
     return rgb_gray(0);

@@ -4,10 +4,10 @@
 #include "scene/light.h"
 #include "scene/surface.h"
 
-/* Whether the surface bounds a clear body, which is looked at from inside, too. */
+/* Whether the surface sends light on that comes from either side. */
 static bool is_solid(const graze_scene *scene, int64_t surface) {
     const scene_material *material = scene_material_at(scene, surface);
-    return scene_material_refracts(material);
+    return scene_material_bends(material);
 }
 
 path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {

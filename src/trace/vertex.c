@@ -61,8 +61,8 @@ rgb vertex_function_value(const vertex *v, vec3 direction) {
 /* Whether a path that carries nothing may still find lights behind a surface. */
 static bool looks_through(const path *p, const scene_material *material, int64_t surface) {
     const graze_scene *scene = p->context->scene;
-    bool clear = scene_surface_passes(scene, surface) || scene_material_refracts(material) ||
-                 mirrored_light_is_in(scene, surface);
+    bool clear =
+        scene_surface_passes(scene, surface) || scene_material_bends(material) || mirrored_light_is_in(scene, surface);
     return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
 }
 

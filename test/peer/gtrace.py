@@ -366,6 +366,11 @@ def cases():
     yield Case("illums, seen", "illum", aim([0, -.5, .3], grid([-1.8, -2.5, 1.7], [1.8, 2.6, 1.7], 100, odd)), "-ab 0 -st 1", repeat=64)
     yield Case("illums, seen from above", "illum", aim([0, 0, 4], grid([-2, -2.5, 0], [2, 2.5, 0], 100, odd)), "-ab 0 -st 1", repeat=256)
 
+    # Radiance's virtual lights in prisms are where it takes them to be by one ray: what only bounces find is exact.
+    yield Case("prisms, irradiance", "prisms", sensors([-2.5, -2.5, 0], [2.5, 2.5, 0], 64, up, odd), "-I -ab 1", "-dr 0 -ad 1024", repeat=32, samples=32768)
+    yield Case("prisms, seen", "prisms_seen", np.vstack([aim(eye, grid([-2, 1.5, .1], [2, 1.5, 2.1], 81, odd)) for eye in [[.1, -3, 1], [.1, 4, 1]]]),
+               "-ab 0", repeat=4, samples=16384)
+
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]

@@ -50,6 +50,19 @@ static void illums_are_checked(void **state) {
                    "real");
 }
 
+static void prisms_are_checked(void **state) {
+    (void)state;
+    assert_refused("void prism1 i 4 1 Dx Dy Dz 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: prism1 i", "string");
+    assert_refused("void prism1 i 5 1 Dx Dy bad . 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: prism1 i", "bad");
+    assert_refused("void prism1 p 5 1 Dx Dy Dz . 0 0 void plastic q 0 0 5 1 1 1 0 0 void mixfunc i 4 p q .5 . 0 0 "
+                   "i sphere s 0 0 4 0 0 0 1\n",
+                   "mixfunc i", "a prism");
+    graze_scene *scene = scene_from_text("void prism1 i 5 1 DxA Dy Dz . 0 0 i sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_non_null(strstr(messages, "prism1 i: DxA, DyA and DzA are 0"));
+    graze_scene_destroy(scene);
+}
+
 static void all_mistakes_are_told_at_once(void **state) {
     (void)state;
     const char *text =
@@ -182,6 +195,7 @@ int main(void) {
         cmocka_unit_test(surfaces_need_a_material),
         cmocka_unit_test(lights_are_checked),
         cmocka_unit_test(illums_are_checked),
+        cmocka_unit_test(prisms_are_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),

@@ -1,4 +1,4 @@
-/* Lights and mirrors that are seen as something else: illum, and mirror with an alternate material. */
+/* What is seen as something else, or elsewhere: illum, mirrors with an alternate material, prisms. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -100,10 +100,42 @@ static void illums_are_seen_as_others(void **state) {
         }
 }
 
+/* A prism that mirrors is a mirror, and one that lets rays straight through a sheet that does so. */
+static void prisms_do_what_their_functions_say(void **state) {
+    (void)state;
+    static const struct {
+        const char *prism, *other;
+    } pairs[] = {
+        {"void prism1 i 5 if(Rdot,.7,0) Dx Dy -Dz . 0 0 ", "void mirror i 0 0 3 .7 .7 .7 "},
+        {"void prism1 i 7 if(Rdot,A1,0) Dx -Dy Dz . -rx 90 0 1 .7 ", "void mirror i 0 0 3 .7 .7 .7 "},
+        {"void prism1 i 5 .7 Dx Dy Dz . 0 0 ", "void trans i 0 0 7 .7 .7 .7 0 0 1 1 "},
+        {"void prism2 i 9 .3 Dx Dy Dz .4 Dx*2 Dy*2 Dz*2 . 0 0 ", "void trans i 0 0 7 .7 .7 .7 0 0 1 1 "},
+        {"void prism1 i 5 if(Py,.7,-1) Dx Dy Dz . 0 0 ",
+         "void trans s 0 0 7 .7 .7 .7 0 0 1 1 void plastic b 0 0 5 0 0 0 0 0 void mixfunc i 4 s b if(Py,1,0) . 0 0 "},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        for (int bounces = 0; bounces <= 1; bounces++) {
+            char prism[1000], other[1000];
+            const char *lights =
+                "void light l 0 0 3 4 3 2 l sphere above 0 0 4 1 .5 2.5 .7 l sphere below 0 0 4 -1 -.5 "
+                ".7 .5 void glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 1 180 ";
+            snprintf(prism, sizeof prism, "%s%s%s", lights, pairs[i].prism, PANE("i"));
+            snprintf(other, sizeof other, "%s%s%s", lights, pairs[i].other, PANE("i"));
+            const vec3 eye = {0.2, -2, 0.8}, target = {0.1, 0.2, 0};
+            answer b = answer_of(other, GRAZE_STRATEGY_BRDF, bounces, eye, target);
+            for (int strategy = 0; strategy < 3; strategy++) {
+                const graze_strategy all[] = {GRAZE_STRATEGY_MIS, GRAZE_STRATEGY_LIGHT, GRAZE_STRATEGY_BRDF};
+                assert_near(pairs[i].prism, answer_of(prism, all[strategy], bounces, eye, target), b);
+            }
+            assert_true(rgb_brightness(b.value) > 0);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strategies_agree_about_illums),
         cmocka_unit_test(illums_are_seen_as_others),
+        cmocka_unit_test(prisms_do_what_their_functions_say),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
