@@ -121,10 +121,25 @@ static graze_status read_wgmd(scene_builder *b, scene_material *material, const 
     return status ? status : material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
 }
 
+/* A mirror that is seen as something else. */
+static graze_status read_mirror(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    graze_status status = scene_read_alternate(b, p, &material->alternate);
+    if (status)
+        return status;
+    const scene_material *seen = scene_material_seen(b->scene, &b->scene->materials[material->alternate]);
+    bool through = seen->kind == SCENE_REFLECTOR || seen->kind == SCENE_ORIENTED;
+    through = through && (seen->reflector.kind == GRAZE_TRANS || seen->reflector.kind == GRAZE_GLASS ||
+                          seen->reflector.kind == GRAZE_DIELECTRIC);
+    material->keeps_front = !through || material->alternate == b->scene->nothing;
+    return GRAZE_OK;
+}
+
 static graze_status read_reflector(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = material_orients_by_function(p) ? SCENE_ORIENTED : SCENE_REFLECTOR;
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
+    if (!status && p->type == RAD_MIRROR && p->string_count > 0)
+        return read_mirror(b, material, p);
     if (status || material->kind == SCENE_REFLECTOR)
         return status;
     status = need_modifiers(b);

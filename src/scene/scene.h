@@ -62,8 +62,9 @@ typedef enum scene_material_kind {
 /* What a material does, with all that modifies it. */
 typedef struct scene_material {
     scene_material_kind kind;
-    int primitive;                      /* the material, or the mixture, in the description */
-    int alternate;                      /* index into materials of what it is seen as; -1: as itself */
+    int primitive;    /* the material, or the mixture, in the description */
+    int alternate;    /* index into materials of what it is seen as; -1: as itself */
+    bool keeps_front; /* with an alternate: the front of a mirror, which paths meet as that once they are scattered */
     const material_modifier *modifiers; /* patterns and textures, or null */
     union {
         struct { /* SCENE_REFLECTOR, SCENE_ORIENTED */
@@ -92,7 +93,7 @@ typedef struct scene_surface {
     int material;    /* index into materials */
     int light;       /* index into lights, or -1 */
     bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;    /* flat, of the material `mirror`, not patterned */
+    bool mirrors;    /* flat, of the material `mirror`, not patterned; to paths, not only to light samples */
 } scene_surface;
 
 /* An instance or a mesh in a part. */

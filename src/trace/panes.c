@@ -12,7 +12,7 @@ static rgb pane_transmittance(const path_context *context, const geometry_hit *h
     if (slope > 0 && !context->settings->back_faces_visible)
         return rgb_gray(1);
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    if (slope < 0 && !is_proper && scene_material_emits(material))
+    if (slope < 0 && (material->keeps_front || (!is_proper && scene_material_emits(material))))
         return rgb_gray(0);
     material = scene_material_seen(scene, material);
     if (appearance_is_plain(scene, material, hit->surface))

@@ -371,6 +371,12 @@ def cases():
     yield Case("prisms, seen", "prisms_seen", np.vstack([aim(eye, grid([-2, 1.5, .1], [2, 1.5, 2.1], 81, odd)) for eye in [[.1, -3, 1], [.1, 4, 1]]]),
                "-ab 0", repeat=4, samples=16384)
 
+    yield Case("alternates of mirrors, irradiance", "alternates", sensors([-2.8, -2.8, 0], [2.8, 1.9, 0], 100, up, odd), "-I -ab 0", "-dr 1 -dp 0", repeat=256)
+    yield Case("alternates of mirrors, one bounce", "alternates", sensors([-2.8, -2.8, 0], [2.8, 1.9, 0], 36, up, odd), "-I -ab 1", "-dr 1 -dp 0 -ad 1024", repeat=64,
+               samples=16384)
+    yield Case("alternates of mirrors, seen", "alternates", np.vstack([aim(eye, grid([-2.8, 2, .1], [2.8, 2, 2], 64, odd)) for eye in [[.1, -2, 1], [.1, 4, 1]]]),
+               "-ab 0", "-dr 1 -dp 0", repeat=64)
+
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]

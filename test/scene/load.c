@@ -63,6 +63,15 @@ static void prisms_are_checked(void **state) {
     graze_scene_destroy(scene);
 }
 
+static void alternates_of_mirrors_are_checked(void **state) {
+    (void)state;
+    assert_refused("void mirror i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i", "1 string");
+    assert_refused("void mirror i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i",
+                   "no modifier 'a' before");
+    assert_refused("void glow l 0 0 4 1 1 1 0 void mirror i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "mirror i",
+                   "seen as l, which shines");
+}
+
 static void all_mistakes_are_told_at_once(void **state) {
     (void)state;
     const char *text =
@@ -196,6 +205,7 @@ int main(void) {
         cmocka_unit_test(lights_are_checked),
         cmocka_unit_test(illums_are_checked),
         cmocka_unit_test(prisms_are_checked),
+        cmocka_unit_test(alternates_of_mirrors_are_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),

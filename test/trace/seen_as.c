@@ -131,10 +131,53 @@ static void prisms_do_what_their_functions_say(void **state) {
         }
 }
 
+static void strategies_agree_about_mirrors_with_alternates(void **state) {
+    (void)state;
+    static const char *const mirrors[] = {
+        "void mirror i 1 void 0 3 .9 .8 .7 ",
+        "void plastic q 0 0 5 .2 .3 .4 .1 .2 void mirror i 1 q 0 3 .9 .8 .7 ",
+        "void glass q 0 0 3 .8 .7 .6 void mirror i 1 q 0 3 .9 .8 .7 ",
+        "void glass q 0 0 3 .8 .7 .6 void mirror n 1 q 0 3 .9 .8 .7 void mirror i 1 n 0 3 .9 .8 .7 ",
+    };
+    for (size_t i = 0; i < sizeof mirrors / sizeof *mirrors; i++)
+        for (int bounces = 0; bounces <= 1; bounces++) {
+            char things[1000];
+            snprintf(things, sizeof things,
+                     "%s%svoid light l 0 0 3 4 3 2 l sphere high 0 0 4 1 .5 2.5 .3 l sphere low 0 0 4 -1 -.5 .7 .5 "
+                     "void glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 1 180 ",
+                     mirrors[i], PANE("i"));
+            const vec3 eye = {0.2, -2, 0.8}, target = {0.1, 0.2, 0};
+            answer both = answer_of(things, GRAZE_STRATEGY_MIS, bounces, eye, target);
+            assert_near(things, both, answer_of(things, GRAZE_STRATEGY_LIGHT, bounces, eye, target));
+            assert_near(things, both, answer_of(things, GRAZE_STRATEGY_BRDF, bounces, eye, target));
+            assert_true(rgb_brightness(both.value) > 0);
+        }
+}
+
+/* To the eye it is that material, and throws no light back that it had not. */
+static void mirrors_are_seen_as_others(void **state) {
+    (void)state;
+    const char *lights = "void glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 1 180 void light l 0 0 3 40 30 20 l sphere "
+                         "lamp 0 0 4 1.5 0 .9 .1 void plastic q 0 0 5 .2 .3 .4 .1 .2 ";
+    char with[1000], without[1000];
+    for (int kind = 0; kind < 2; kind++)
+        for (int above = 0; above < 2; above++) {
+            snprintf(with, sizeof with, "%svoid mirror i 1 %s 0 3 .9 .8 .7 %s", lights, kind ? "void" : "q", PANE("i"));
+            snprintf(without, sizeof without, "%s%s", lights, kind ? "" : PANE("q"));
+            const vec3 eye = {0.2, -0.3, above ? 2.4 : 0.6}, target = {0.3, 0.2, 1.5};
+            if (kind && above)
+                continue; /* it sees the floor, which the mirror lights */
+            assert_near(with, answer_of(with, GRAZE_STRATEGY_MIS, 0, eye, target),
+                        answer_of(without, GRAZE_STRATEGY_MIS, 0, eye, target));
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strategies_agree_about_illums),
         cmocka_unit_test(illums_are_seen_as_others),
+        cmocka_unit_test(strategies_agree_about_mirrors_with_alternates),
+        cmocka_unit_test(mirrors_are_seen_as_others),
         cmocka_unit_test(prisms_do_what_their_functions_say),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
