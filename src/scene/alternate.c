@@ -11,25 +11,19 @@ static int find_before(const graze_scene *scene, const rad_primitive *p, const c
     return RAD_VOID;
 }
 
-/* The material that is not there. */
-static int nothing(graze_scene *scene) {
-    if (scene->nothing >= 0)
-        return scene->nothing;
-    scene->nothing = (int)scene->material_count++;
-    scene->materials[scene->nothing] = (scene_material){
-        .kind = SCENE_REFLECTOR,
-        .primitive = RAD_VOID,
-        .reflector = {.kind = GRAZE_TRANS, .color = {1, 1, 1}, .transmission = 1, .transmitted_specularity = 1},
-        .alternate = -1,
-    };
-    scene->has_panes = true;
-    return scene->nothing;
+int scene_nothing(scene_builder *b) {
+    graze_scene *scene = b->scene;
+    if (b->nothing < 0) {
+        b->nothing = (int)scene->material_count++;
+        scene->materials[b->nothing] = (scene_material){.kind = SCENE_NOTHING, .primitive = RAD_VOID, .alternate = -1};
+    }
+    return b->nothing;
 }
 
 graze_status scene_read_alternate(scene_builder *b, const rad_primitive *p, int *alternate) {
     const char *name = p->string_count > 0 ? p->strings[0] : "void";
     if (!strcmp(name, "void")) {
-        *alternate = nothing(b->scene);
+        *alternate = scene_nothing(b);
         return GRAZE_OK;
     }
     int modifier = find_before(b->scene, p, name);

@@ -11,11 +11,15 @@ typedef struct scene_builder {
     const graze_report *report;
     size_t own, own_surfaces; /* of the primitives, those that are the scene's and no copied part's */
     int *material_of;         /* by primitive: index into scene->materials, or -1 */
+    int nothing;              /* index of the one that is SCENE_NOTHING, or -1 */
     graze_status status;
 } scene_builder;
 
 /* Notes that something has gone wrong, which has been reported. */
 void scene_fail(scene_builder *, graze_status);
+
+/* Sees to it that there are modifiers, which patterns and functions are compiled with. */
+graze_status scene_need_modifiers(scene_builder *);
 
 /* The material of a surface, or a negative number where it has none that can be used (reported). */
 int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
@@ -25,6 +29,9 @@ bool scene_material_is_pane(const graze_scene *, const scene_material *);
 
 /* The material of a modifier, or a negative number where it has none that can be used (reported). */
 int scene_material_of_modifier(scene_builder *, int modifier);
+
+/* The material that is SCENE_NOTHING. */
+int scene_nothing(scene_builder *);
 
 /* What a material says that it is seen as, by its one string argument: an index into materials. */
 graze_status scene_read_alternate(scene_builder *, const rad_primitive *, int *alternate);

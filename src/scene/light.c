@@ -68,6 +68,13 @@ int light_source_towards(const graze_scene *scene, vec3 direction) {
     return -1;
 }
 
+bool light_source_shines_from(const graze_scene *scene, int index, vec3 direction) {
+    const scene_light *light = &scene->lights[index];
+    if (light->glow && !light->alone)
+        return light_source_towards(scene, direction) == index;
+    return source_contains(light, direction);
+}
+
 static light_sample draw_shape(const scene_light *light, int index, vec3 point, double travelled,
                                const double random[2]) {
     light_sample sample = {.light = -1};
@@ -96,7 +103,7 @@ light_sample light_draw(const graze_scene *scene, vec3 point, double travelled, 
         sample.direction = solid_angle_draw_cone(light->center, light->half_angle, random[0], random[1]);
         sample.density = 1 / solid_angle_of_cone(light->half_angle);
     }
-    if (light_source_towards(scene, sample.direction) != index)
+    if (light->glow && !light->alone && light_source_towards(scene, sample.direction) != index)
         return sample;
     sample.light = index;
     sample.radiance =

@@ -38,6 +38,10 @@ static inline rgb light_patterned(const scene_light *light, rgb radiance, vec3 p
  * scene's order, else the first `glow`. */
 int light_source_towards(const graze_scene *, vec3 direction);
 
+/* Whether points get light of the source from this direction: of every `light` that is there, also where only the first
+ * of them is seen; of a `glow` where it is. As in Radiance, for which `light`s are sampled and `glow`s are met. */
+bool light_source_shines_from(const graze_scene *, int source, vec3 direction);
+
 typedef struct light_sample {
     int light;       /* -1: the light's front is not seen from the point */
     vec3 direction;  /* unit, towards the light */

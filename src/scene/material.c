@@ -17,10 +17,12 @@ static bool is_mirror(const scene_material *material) {
         return probe.specular_lobe == GRAZE_LOBE_MIRROR;
     case SCENE_WGMD:
         return material->wgmd->may_mirror;
-    case SCENE_EMITTER:
     case SCENE_FUNCTION:
+        return material->reflection->mirrors;
+    case SCENE_EMITTER:
     case SCENE_PRISM:
     case SCENE_MIXTURE:
+    case SCENE_NOTHING:
         break;
     }
     return false;
@@ -35,16 +37,20 @@ bool scene_material_is_pane(const graze_scene *scene, const scene_material *mate
     case SCENE_MIXTURE:
         return scene_material_is_pane(scene, &scene->materials[material->fore]) ||
                scene_material_is_pane(scene, &scene->materials[material->back]);
-    case SCENE_EMITTER:
     case SCENE_FUNCTION:
-    case SCENE_PRISM:
+        return material->reflection->passes;
     case SCENE_WGMD:
+        return material->wgmd->may_be_clear;
+    case SCENE_NOTHING:
+        return true;
+    case SCENE_EMITTER:
+    case SCENE_PRISM:
         break;
     }
     return false;
 }
 
-static graze_status need_modifiers(scene_builder *b) {
+graze_status scene_need_modifiers(scene_builder *b) {
     graze_scene *scene = b->scene;
     if (!scene->modifiers)
         scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
@@ -58,7 +64,7 @@ static graze_status find_chain(scene_builder *b, int modifier, material_chain *c
     *chain = (material_chain){.material = modifier};
     if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
         return GRAZE_OK;
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     if (status)
         return status;
     status = material_chain_find(chain, scene->modifiers, modifier);
@@ -67,15 +73,24 @@ static graze_status find_chain(scene_builder *b, int modifier, material_chain *c
     return status;
 }
 
+/* Half of a mixture: of void, or of patterns with no material behind them, light gets straight through, uncoloured. */
+static int mixed_material(scene_builder *b, int modifier) {
+    graze_scene *scene = b->scene;
+    material_chain chain = {.material = RAD_VOID};
+    if (modifier != RAD_VOID && material_chain_find(&chain, scene->modifiers, modifier))
+        return scene_material_of_modifier(b, modifier);
+    if (chain.material != RAD_VOID)
+        return scene_material_of_modifier(b, modifier);
+    return scene_nothing(b);
+}
+
 /* Both materials of a mixture. */
 static graze_status read_mixture(scene_builder *b, scene_material *material, const material_modifier *mixture) {
     const rad_primitive *p = mixture->primitive;
-    if (mixture->fore == RAD_VOID || mixture->back == RAD_VOID)
-        return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
     material->kind = SCENE_MIXTURE;
     material->share = mixture;
-    material->fore = scene_material_of_modifier(b, mixture->fore);
-    material->back = scene_material_of_modifier(b, mixture->back);
+    material->fore = mixed_material(b, mixture->fore);
+    material->back = mixed_material(b, mixture->back);
     if (material->fore < 0 || material->back < 0)
         return b->status;
     const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
@@ -101,7 +116,7 @@ static graze_status read_emitter(scene_builder *b, scene_material *material, con
 
 static graze_status read_function(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_FUNCTION;
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     if (status)
         return status;
     return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
@@ -109,7 +124,7 @@ static graze_status read_function(scene_builder *b, scene_material *material, co
 
 static graze_status read_prism(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_PRISM;
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     return status ? status
                   : material_prism_compile(&material->prism, material_modifiers_library(b->scene->modifiers), p);
 }
@@ -117,7 +132,7 @@ static graze_status read_prism(scene_builder *b, scene_material *material, const
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_WGMD;
     material->model = scene_choose_model(b->settings, p);
-    graze_status status = need_modifiers(b);
+    graze_status status = scene_need_modifiers(b);
     return status ? status : material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
 }
 
@@ -130,7 +145,7 @@ static graze_status read_mirror(scene_builder *b, scene_material *material, cons
     bool through = seen->kind == SCENE_REFLECTOR || seen->kind == SCENE_ORIENTED;
     through = through && (seen->reflector.kind == GRAZE_TRANS || seen->reflector.kind == GRAZE_GLASS ||
                           seen->reflector.kind == GRAZE_DIELECTRIC);
-    material->keeps_front = !through || material->alternate == b->scene->nothing;
+    material->keeps_front = !through;
     return GRAZE_OK;
 }
 
@@ -142,7 +157,7 @@ static graze_status read_reflector(scene_builder *b, scene_material *material, c
         return read_mirror(b, material, p);
     if (status || material->kind == SCENE_REFLECTOR)
         return status;
-    status = need_modifiers(b);
+    status = scene_need_modifiers(b);
     if (status)
         return status;
     return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);

@@ -156,15 +156,19 @@ static bool is_glow_source(const graze_scene *scene, int primitive) {
     return material != RAD_VOID && scene->primitives[material].type == RAD_GLOW;
 }
 
-static bool sources_are_apart(const graze_scene *scene) {
-    for (size_t i = scene->first_source; i < scene->light_count; i++)
-        for (size_t k = scene->first_source; k < i; k++) {
-            const scene_light *a = &scene->lights[i], *b = &scene->lights[k];
-            double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
-            if (angle >= PI || between <= 2 * sin(angle / 2))
-                return false;
-        }
-    return true;
+static bool sources_overlap(const scene_light *a, const scene_light *b) {
+    double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
+    return angle >= PI || between <= 2 * sin(angle / 2);
+}
+
+static void note_overlaps(graze_scene *scene) {
+    for (size_t i = scene->first_source; i < scene->light_count; i++) {
+        scene_light *light = &scene->lights[i];
+        light->alone = true;
+        for (size_t k = scene->first_source; k < i && light->alone; k++)
+            light->alone = !sources_overlap(light, &scene->lights[k]);
+        scene->suns_overlap = scene->suns_overlap || !(light->alone || light->glow);
+    }
 }
 
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
@@ -180,7 +184,7 @@ static void add_surfaces(scene_builder *b) {
         for (size_t i = 0; i < b->own; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
-    scene->sources_apart = sources_are_apart(scene);
+    note_overlaps(scene);
 }
 
 /* Whether there is a light that may be known without sampling where it is seen wholly. */
@@ -201,8 +205,7 @@ static graze_status allocate(scene_builder *b) {
     scene->memory = arena_create();
     scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
     scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
-    scene->materials = calloc(modifiers + 1, sizeof *scene->materials); /* with room for one that is nothing */
-    scene->nothing = -1;
+    scene->materials = calloc(modifiers + 1, sizeof *scene->materials); /* one may be void */
     scene->lights = calloc(scene->primitive_count + 1, sizeof *scene->lights);
     b->material_of = malloc((scene->primitive_count + 1) * sizeof *b->material_of);
     if (!scene->memory || !scene->shapes || !scene->surfaces || !scene->materials || !scene->lights || !b->material_of)
@@ -228,6 +231,15 @@ static graze_status read_description(scene_builder *b, const char *const *names,
     return has_copies(scene) ? rad_scene_read_parts(scene->description, b->report) : GRAZE_OK;
 }
 
+static graze_status add_definitions(scene_builder *b) {
+    const graze_scene_settings *s = b->settings;
+    graze_status status = s->definition_count > 0 ? scene_need_modifiers(b) : GRAZE_OK;
+    for (size_t i = 0; i < s->definition_count && status == GRAZE_OK; i++)
+        status = material_library_define(material_modifiers_library(b->scene->modifiers), s->definitions[i].text,
+                                         s->definitions[i].file);
+    return status;
+}
+
 /* From primitives to surfaces, materials and lights. */
 static graze_status add_all(scene_builder *b) {
     graze_scene *scene = b->scene;
@@ -235,6 +247,8 @@ static graze_status add_all(scene_builder *b) {
     b->status = scene_check_models(b->settings, scene->primitives, scene->primitive_count, b->report);
     if (b->status == GRAZE_OK)
         b->status = allocate(b);
+    if (b->status == GRAZE_OK)
+        b->status = add_definitions(b);
     if (b->status != GRAZE_OK)
         return b->status;
     scene_check_ambient(b->settings, scene->primitives, scene->primitive_count, b->report);
@@ -269,8 +283,11 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     graze_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return report_out_of_memory(report);
-    scene_builder b = {
-        .scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
+    scene_builder b = {.scene = scene,
+                       .settings = settings ? settings : &as_described,
+                       .report = report,
+                       .nothing = -1,
+                       .status = GRAZE_OK};
     b.status = read_description(&b, descriptions, count);
     if (b.status == GRAZE_OK)
         b.status = add_all(&b);

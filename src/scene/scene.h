@@ -45,6 +45,7 @@ typedef struct scene_light {
     double spot_cosine; /* of the half angle of the cone */
     double spot_focus;  /* how far behind the light its cone begins */
     vec3 center;        /* of a source: the unit direction towards it */
+    bool alone;         /* of a source: no part of it is a source's that is before it in the scene's lights */
     double half_angle;  /* of a source, radians */
     bool only_seen;     /* it is in a copy: no light for others, but of a glow beyond its radius */
 } scene_light;
@@ -53,10 +54,11 @@ typedef enum scene_material_kind {
     SCENE_REFLECTOR, /* what include/graze/material.h knows: opaque, transmitting, clear, or a mirror */
     SCENE_ORIENTED,  /* the same, its orientation by functions */
     SCENE_EMITTER,   /* it shines */
-    SCENE_FUNCTION,  /* it reflects lights by a function */
+    SCENE_FUNCTION,  /* it scatters lights by a function */
     SCENE_WGMD,      /* WGMDfunc */
     SCENE_PRISM,     /* it sends light on in directions by functions */
     SCENE_MIXTURE,   /* it is one of two materials, or both in part */
+    SCENE_NOTHING,   /* void, in a mixture or as an alternate: light goes straight on */
 } scene_material_kind;
 
 /* What a material does, with all that modifies it. */
@@ -127,7 +129,6 @@ struct graze_scene {
     size_t part_count;
     scene_material *materials;
     size_t material_count;
-    int nothing;                   /* the material that lets all light through; -1: nothing is seen as that */
     material_modifiers *modifiers; /* null where no material has any */
     bool has_mirrors;              /* or dielectrics: light comes by ways that no light sample finds */
     int *mirrors;                  /* mirror_count surfaces that do mirror */
@@ -139,7 +140,7 @@ struct graze_scene {
     size_t light_count;
     size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
-    bool sources_apart;  /* no direction is in two of them */
+    bool suns_overlap;   /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
 };
@@ -164,6 +165,11 @@ static inline bool scene_material_refracts(const scene_material *m) {
 /* Whether light comes through it, but not straight on: from either side, and where no light sample looks for it. */
 static inline bool scene_material_bends(const scene_material *m) {
     return m->kind == SCENE_PRISM || scene_material_refracts(m);
+}
+
+/* Whether it is there from behind, too, where back faces are not visible. */
+static inline bool scene_material_has_back(const scene_material *m) {
+    return scene_material_bends(m) || (m->kind == SCENE_FUNCTION && m->reflection->keeps_normal);
 }
 
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,

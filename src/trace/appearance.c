@@ -9,26 +9,50 @@ material_ray appearance_ray(const graze_scene *scene, const path_hit *hit, doubl
     return encounter_meet(scene, hit, length).ray;
 }
 
-static void lean_vertex(const path_hit *hit, const encounter *of, const material_effect *e, vertex *v, vec3 *normal) {
-    *normal = encounter_lean(hit, of, e);
-    v->leans = normal->x != v->normal.x || normal->y != v->normal.y || normal->z != v->normal.z;
+vec3 appearance_lean(const path_hit *hit, const encounter *of, const material_effect *e, vertex *v) {
+    vec3 normal = encounter_lean(hit, of, e);
+    v->leans = !vec3_is_same(normal, v->normal);
+    return normal;
 }
 
-/* The function's part is for lights, the diffuse part for these, too; all else is reflected by the whole colour. */
-static void prepare_function(const path *p, const path_hit *hit, const encounter *of, const material_reflection *r,
-                             const material_effect *e, vertex *v) {
-    rgb color = encounter_colored(r->color, e->color);
-    const graze_material diffuse = {.kind = GRAZE_PLASTIC, .color = rgb_scale(1 - r->specularity, color)};
-    vec3 normal;
-    lean_vertex(hit, of, e, v, &normal);
-    graze_surface_prepare(&v->shading, &diffuse, normal, vec3_negate(hit->direction), NULL);
-    v->ambient = color;
-    v->gloss_is_ambient = false;
-    v->function = r;
-    v->function_scene = of->moved ? p->context->scene : NULL;
-    v->function_point = (material_reflection_point){of->ray, encounter_as_written(of, normal), color};
-    v->function_point.ray.normal = encounter_as_written(of, v->normal);
-    v->function_color = rgb_scale(r->specularity, r->metal ? color : rgb_gray(1));
+/* Perturbations below this bend nothing, as in Radiance. */
+#define NO_PERTURBATION 1e-6
+
+vec3 appearance_straight_on(const path *p, const path_hit *hit, vec3 perturbation, bool rough) {
+    bool bends = p->ambient_depth == 0 && (rough || !lobe_scatters(p->last.lobe));
+    if (!bends || !(vec3_dot(perturbation, perturbation) > NO_PERTURBATION * NO_PERTURBATION))
+        return hit->direction;
+    vec3 bent = vec3_safe_normalize(vec3_subtract(hit->direction, perturbation));
+    vec3 below = hit->behind ? hit->normal : vec3_negate(hit->normal);
+    return vec3_dot(bent, below) > 0 ? bent : hit->direction;
+}
+
+/* How refraction goes on where the normal leans so far that it would not get through: by the surface's own normal, with
+ * what the leaning one had been bent by. */
+static vec3 refract_plainly(const graze_surface *s, double ratio, vec3 normal) {
+    double along = vec3_dot(vec3_add_scaled(s->transmitted, ratio, s->view), s->n);
+    vec3 straight = vec3_scale(-ratio, s->view);
+    return vec3_safe_normalize(vec3_add_scaled(straight, -fabs(along), normal));
+}
+
+/* Where the viewer looks on beyond a surface whose normal leans. */
+static void bend(const path *p, const path_hit *hit, const graze_material *m, vec3 perturbation, vertex *v) {
+    graze_surface *s = &v->shading;
+    switch (m->kind) {
+    case GRAZE_GLASS:
+        s->transmitted = appearance_straight_on(p, hit, vec3_scale(2 * (m->refraction - 1), perturbation), false);
+        break;
+    case GRAZE_TRANS:
+        s->transmitted =
+            appearance_straight_on(p, hit, perturbation, s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY);
+        break;
+    case GRAZE_DIELECTRIC:
+        if (vec3_dot(s->transmitted, v->normal) >= 0)
+            s->transmitted = refract_plainly(s, hit->behind ? m->refraction : 1 / m->refraction, v->normal);
+        break;
+    default:
+        break;
+    }
 }
 
 /* Of panes, what they transmit is multiplied by the pattern; of dielectrics, what a unit of length does. */
@@ -53,13 +77,14 @@ static void prepare_reflector(const path *p, const path_hit *hit, const encounte
     }
     if (of->moved && reflector.has_orientation)
         reflector.orientation = rad_transform_vector(&of->transform, reflector.orientation);
-    vec3 normal;
-    lean_vertex(hit, of, e, v, &normal);
+    vec3 normal = appearance_lean(hit, of, e, v);
     if (reflector.kind >= GRAZE_DIELECTRIC && hit->behind)
         normal = vec3_negate(normal);
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
     if (reflector.kind == GRAZE_GLASS && v->shading.transmits)
         v->shading.transmitted_specular = encounter_colored(v->shading.transmitted_specular, e->color);
+    if (v->leans && v->shading.transmits)
+        bend(p, hit, &reflector, encounter_perturbation(hit, of, e), v);
     vertex_find_ambient(p, v, &reflector);
 }
 
@@ -89,11 +114,19 @@ static bool blend_vertices(vertex *v, double share, const vertex *fore, const ve
     return true;
 }
 
-bool appearance_draw(const path *p, double share) {
+static double draw_number(const path *p) {
     double random[2] = {0.5, 0.5};
     if (p->sampler)
         sampler_2d(p->sampler, random);
-    return random[0] < share;
+    return random[0];
+}
+
+bool appearance_draw(const path *p, double share) {
+    return draw_number(p) < share;
+}
+
+int appearance_draw_of(const path *p, int count) {
+    return (int)(draw_number(p) * count);
 }
 
 /* What a mixture is where its share cannot be computed, as in Radiance. */
@@ -102,12 +135,66 @@ static const scene_material black = {.kind = SCENE_REFLECTOR, .reflector = {.kin
 static void prepare(const path *, const path_hit *, const encounter *, const scene_material *, material_effect,
                     vertex *);
 
+/* Whether what the surface transmits goes straight on, if there is any. */
+static bool leads_straight_on(const path_hit *hit, const vertex *v) {
+    const graze_surface *s = &v->shading;
+    return !s->transmits || s->transmitted_lobe == GRAZE_LOBE_NONE ||
+           (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED && vec3_is_same(s->transmitted, hit->direction));
+}
+
+/* Leaves this share of a surface, and lets the rest of all light straight through. */
+static void perforate(const path *p, const path_hit *hit, double share, vertex *v) {
+    graze_surface *s = &v->shading;
+    if (!s->transmits) {
+        s->transmitted_diffuse = s->transmitted_specular = rgb_gray(0);
+        s->transmitted_u = s->lobe.alpha_x;
+        s->transmitted_v = s->lobe.alpha_y;
+        v->transmitted_ambient = v->transmitted_function = rgb_gray(0);
+        v->transmitted_gloss_is_ambient = false;
+    }
+    s->transmits = 1;
+    s->transmitted_lobe = GRAZE_LOBE_TRANSMITTED;
+    s->transmitted = hit->direction;
+    rgb *const parts[] = {&s->diffuse, &s->specular,           &s->transmitted_diffuse, &s->transmitted_specular,
+                          &v->ambient, &v->transmitted_ambient};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        *parts[i] = rgb_scale(share, *parts[i]);
+    if (v->function) {
+        v->function_color = rgb_scale(share, v->function_color);
+        v->transmitted_function = rgb_scale(share, v->transmitted_function);
+    }
+    s->transmitted_specular = rgb_add(s->transmitted_specular, rgb_gray(1 - share));
+    vertex_set_passage(p, v);
+}
+
+/* A material, of which there is this share, and void. */
+static void prepare_with_nothing(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
+                                 material_effect e, double share, vertex *v) {
+    if (share > 0)
+        prepare(p, hit, of, m, e, v);
+    if (share > 0 && !leads_straight_on(hit, v)) {
+        v->drawn = true;
+        if (appearance_draw(p, share))
+            return;
+        share = 0;
+    }
+    if (share == 0)
+        prepare_reflector(p, hit, of, &black, &e, v);
+    if (share < 1)
+        perforate(p, hit, share, v);
+}
+
 static void prepare_mixture(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                             material_effect e, vertex *v) {
     const scene_material *materials = p->context->scene->materials;
     double share;
     if (!material_mixture_share(m->share, &of->ray, &share)) {
         prepare_reflector(p, hit, of, &black, &e, v);
+        return;
+    }
+    if (materials[m->fore].kind == SCENE_NOTHING || materials[m->back].kind == SCENE_NOTHING) {
+        bool first = materials[m->back].kind == SCENE_NOTHING;
+        prepare_with_nothing(p, hit, of, &materials[first ? m->fore : m->back], e, first ? share : 1 - share, v);
         return;
     }
     vertex fore = *v, back = fore;
@@ -136,13 +223,17 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
         prepare_reflector(p, hit, of, m, &e, v);
         break;
     case SCENE_FUNCTION:
-        prepare_function(p, hit, of, m->reflection, &e, v);
+        appearance_prepare_function(p, hit, of, m->reflection, &e, v);
         break;
     case SCENE_MIXTURE:
         prepare_mixture(p, hit, of, m, e, v);
         break;
     case SCENE_PRISM:
         appearance_prepare_prism(p, hit, of, m->prism, v);
+        break;
+    case SCENE_NOTHING:
+        prepare_reflector(p, hit, of, &black, &e, v);
+        perforate(p, hit, 0, v);
         break;
     case SCENE_EMITTER:
     case SCENE_WGMD:
@@ -168,6 +259,11 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
     }
 }
 
+vec3 appearance_smooth_normal(const graze_scene *scene, const path_hit *hit) {
+    const encounter of = encounter_meet(scene, hit, 0);
+    return encounter_lean(hit, &of, &of.effect);
+}
+
 static rgb through_reflector(const scene_material *m, const path_hit *hit, const encounter *of,
                              const material_effect *e) {
     graze_material reflector = patterned(&m->reflector, e->color);
@@ -189,9 +285,13 @@ static rgb straight_through(const scene_material *materials, const scene_materia
             break;
         return blend(share, straight_through(materials, &materials[m->fore], hit, of, e),
                      straight_through(materials, &materials[m->back], hit, of, e));
-    case SCENE_EMITTER:
+    case SCENE_NOTHING:
+        return rgb_gray(1);
     case SCENE_FUNCTION:
+        return appearance_through_function(hit, of, m->reflection, &e);
     case SCENE_WGMD:
+        return appearance_through_wgmd(hit, of, m, before);
+    case SCENE_EMITTER:
     case SCENE_PRISM:
         break;
     }

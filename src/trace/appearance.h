@@ -26,6 +26,9 @@ material_ray appearance_ray(const graze_scene *, const path_hit *, double length
  * that of the path before the ray. */
 vec3 appearance_normal(const graze_scene *, const path_hit *, double length);
 
+/* The same without textures: the surface's own, or in a mesh what its corners say. */
+vec3 appearance_smooth_normal(const graze_scene *, const path_hit *);
+
 /* What a surface with modifiers lets straight through of the ray that meets it, `length` from the eye to its origin. */
 rgb appearance_straight_through(const graze_scene *, const scene_material *, const path_hit *, double length);
 

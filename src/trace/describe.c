@@ -8,7 +8,7 @@ graze_hit describe_nothing(vec3 origin) {
     return (graze_hit){.distance = GRAZE_FAR, .point = origin};
 }
 
-graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
+graze_hit describe_hit(const graze_scene *scene, const path_hit *found, graze_quantity quantity) {
     graze_hit hit = {.distance = found->distance, .point = found->point};
     int primitive = -1;
     if (found->surface >= 0) {
@@ -16,13 +16,15 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found) {
         const scene_material *material = scene_material_seen(scene, &scene->materials[surface.material]);
         primitive = surface.primitive;
         hit.normal = found->normal;
-        bool turned = found->behind && !scene_material_emits(material);
+        /* As Radiance has it: what shines, and clear bodies, have one normal on both sides. */
+        bool turned = found->behind && !scene_material_emits(material) && !scene_material_refracts(material);
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
         scene_mesh_point mesh = scene_mesh_point_at(scene, found->surface, found->point);
         hit.uv[0] = mesh.uv[0];
         hit.uv[1] = mesh.uv[1];
         if (appearance_has_normal(scene, material, found->surface)) {
-            vec3 normal = appearance_normal(scene, found, 0);
+            vec3 normal = quantity == GRAZE_IRRADIANCE_HIT ? appearance_smooth_normal(scene, found)
+                                                           : appearance_normal(scene, found, 0);
             hit.shading_normal = found->behind != turned ? vec3_negate(normal) : normal;
         }
     } else if (found->light >= 0) {

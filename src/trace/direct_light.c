@@ -63,7 +63,10 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
     const graze_surface *s = &v->shading;
     bool glossy = s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
     light_receiver receiver = {.point = v->point, .surface = &beyond->surface, .diffuse = s->transmitted_diffuse};
-    if (!context_samples_lights(p->context->settings) || (!glossy && rgb_is_black(v->transmitted_ambient))) {
+    if (v->function)
+        receiver.diffuse = rgb_add(receiver.diffuse, v->transmitted_function);
+    if (!context_samples_lights(p->context->settings) ||
+        (!glossy && rgb_is_black(v->transmitted_ambient) && rgb_is_black(receiver.diffuse))) {
         light_choice_none(&beyond->lights);
         return;
     }

@@ -1,6 +1,7 @@
 /* Light from emitters that reflections lead to, by Radiance's rules of what counts. */
 #include "trace/emission.h"
 
+#include "scene/surface.h"
 #include "trace/appearance.h"
 #include "trace/known_light.h"
 #include "trace/mirrored_light.h"
@@ -36,8 +37,22 @@ static rgb patterned(const path *p, const path_hit *hit, rgb radiance) {
     return light_patterned(light, radiance, hit->point, hit->direction, hit->normal, hit->distance, p->length);
 }
 
+/* The light of a hit. The cone of a spotlight in a copy goes with this: the light is then put into *turned. */
+static const scene_light *light_of(const path *p, const path_hit *hit, scene_light *turned) {
+    const graze_scene *scene = p->context->scene;
+    const scene_light *light = &scene->lights[hit->light];
+    rad_transform t;
+    if (!light->only_seen || !light->spot || !scene_material_is_moved(scene, hit->surface, &t))
+        return light;
+    *turned = *light;
+    turned->spot_axis = rad_transform_direction(&t, light->spot_axis);
+    turned->spot_focus *= t.scale;
+    return turned;
+}
+
 rgb emission_radiance(const path *p, const path_hit *hit, bool lights) {
-    const scene_light *light = &p->context->scene->lights[hit->light];
+    scene_light turned;
+    const scene_light *light = light_of(p, hit, &turned);
     double distance = hit->distance + p->last.travelled;
     return patterned(p, hit,
                      lights ? light_radiance_at(light, hit->direction, hit->normal, distance)
@@ -59,8 +74,9 @@ void emission_pass_secondary(path *p, const path_hit *hit) {
     p->last.veiled = true;
 }
 
-rgb emission_found(const path *p, const path_hit *hit) {
-    const scene_light *light = &p->context->scene->lights[hit->light];
+rgb emission_found_of(const path *p, const path_hit *hit) {
+    scene_light turned;
+    const scene_light *light = light_of(p, hit, &turned);
     light_role role = light_role_at(light, hit->distance + p->last.travelled);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
     if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered) || is_seen_through(p, light))
@@ -77,4 +93,18 @@ rgb emission_found(const path *p, const path_hit *hit) {
         return rgb_gray(0);
     }
     return rgb_multiply(throughput, patterned(p, hit, radiance));
+}
+
+rgb emission_found(const path *p, const path_hit *hit) {
+    const graze_scene *scene = p->context->scene;
+    rgb found = emission_found_of(p, hit);
+    if (!scene->suns_overlap || hit->surface >= 0 || !lobe_scatters(p->last.lobe))
+        return found;
+    for (size_t i = (size_t)hit->light + 1; i < scene->light_count && !scene->lights[i].glow; i++)
+        if (light_source_shines_from(scene, (int)i, hit->direction)) {
+            path_hit other = *hit;
+            other.light = (int)i;
+            found = rgb_add(found, emission_found_of(p, &other));
+        }
+    return found;
 }

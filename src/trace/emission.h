@@ -12,7 +12,11 @@ rgb emission_radiance(const path *, const path_hit *, bool lights);
  * that do not, as light samples find them. */
 void emission_pass_secondary(path *, const path_hit *);
 
-/* What the path gets of the emitter it has hit, weighted against finding the same by sampling lights. */
+/* What the path gets of the emitter it has hit, weighted against finding the same by sampling lights; and of all
+ * sources that shine from where it has hit the first of them. */
 rgb emission_found(const path *, const path_hit *);
+
+/* What it gets of the hit's light alone. */
+rgb emission_found_of(const path *, const path_hit *);
 
 #endif

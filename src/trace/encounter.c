@@ -45,12 +45,14 @@ material_effect encounter_add_effect(const material_modifier *modifiers, const m
     return (material_effect){rgb_multiply(before.color, e.color), vec3_add(before.perturbation, e.perturbation)};
 }
 
+vec3 encounter_perturbation(const path_hit *hit, const encounter *of, const material_effect *e) {
+    vec3 perturbation = hit->behind ? vec3_negate(e->perturbation) : e->perturbation;
+    return of->moved ? rad_transform_direction(&of->transform, perturbation) : perturbation;
+}
+
 vec3 encounter_lean(const path_hit *hit, const encounter *of, const material_effect *e) {
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal;
-    vec3 perturbation = hit->behind ? vec3_negate(e->perturbation) : e->perturbation;
-    if (of->moved)
-        perturbation = rad_transform_direction(&of->transform, perturbation);
-    return material_perturbed_normal(normal, perturbation, hit->direction);
+    return material_perturbed_normal(normal, encounter_perturbation(hit, of, e), hit->direction);
 }
 
 rgb encounter_colored(rgb color, rgb pattern) {

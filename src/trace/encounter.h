@@ -23,7 +23,9 @@ static inline vec3 encounter_as_written(const encounter *e, vec3 direction) {
 /* What modifiers (null: none) do, after others. */
 material_effect encounter_add_effect(const material_modifier *, const material_ray *, material_effect before);
 
-/* The hit's normal on the viewer's side, perturbed: perturbations are for the surface's own. */
+/* What an effect adds to the hit's normal on the viewer's side: perturbations are for the surface's own. And the normal
+ * with it. */
+vec3 encounter_perturbation(const path_hit *, const encounter *, const material_effect *);
 vec3 encounter_lean(const path_hit *, const encounter *, const material_effect *);
 
 /* A colour under a pattern: negative ones reflect nothing, and what is too large would overflow. */

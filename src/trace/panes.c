@@ -9,12 +9,12 @@ static rgb pane_transmittance(const path_context *context, const geometry_hit *h
                               double travelled, bool is_proper) {
     const graze_scene *scene = context->scene;
     double slope = vec3_dot(hit->normal, direction);
-    if (slope > 0 && !context->settings->back_faces_visible)
-        return rgb_gray(1);
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
     if (slope < 0 && (material->keeps_front || (!is_proper && scene_material_emits(material))))
         return rgb_gray(0);
     material = scene_material_seen(scene, material);
+    if (slope > 0 && !context->settings->back_faces_visible && !scene_material_has_back(material))
+        return rgb_gray(1);
     if (appearance_is_plain(scene, material, hit->surface))
         return graze_material_straight_through(&material->reflector, fabs(slope));
     const path_hit at = {.surface = hit->surface,
@@ -53,10 +53,8 @@ static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     if (hit->surface < 0)
         return false;
     const scene_material *material = scene_material_at(scene, hit->surface);
-    if (scene->nothing >= 0 && material == &scene->materials[scene->nothing])
-        return true;
     if (material->kind != SCENE_REFLECTOR)
-        return false;
+        return material->kind == SCENE_NOTHING;
     return material->reflector.kind == GRAZE_GLASS || material->reflector.kind == GRAZE_DIELECTRIC;
 }
 

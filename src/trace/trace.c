@@ -51,11 +51,11 @@ void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, 
     vec3 direction;
     double limit;
     *hit = describe_nothing(ray->origin);
-    if (!describe_ray(ray, &direction, &limit))
+    if (settings->quantity == GRAZE_IRRADIANCE || !describe_ray(ray, &direction, &limit))
         return;
     path_context context = {.scene = scene, .settings = settings};
     path_hit found = path_cast(&context, ray->origin, direction, limit, -1);
-    *hit = describe_hit(scene, &found);
+    *hit = describe_hit(scene, &found, settings->quantity);
 }
 
 /* A ray as estimate_sample sees it. */
@@ -85,12 +85,14 @@ void graze_trace(const graze_scene *scene, const graze_trace_settings *settings,
     *answer = (graze_answer){.converged = 1};
     if (hit)
         *hit = describe_nothing(ray->origin);
-    if (!describe_ray(ray, &r.direction, &limit))
+    /* No mirror is before a sensor. */
+    bool sensor = settings->quantity == GRAZE_IRRADIANCE;
+    if (!describe_ray(ray, &r.direction, &limit) || (sensor && settings->part == GRAZE_MIRRORED))
         return;
-    if (settings->quantity != GRAZE_IRRADIANCE) {
+    if (!sensor) {
         r.first = path_cast(&r.context, ray->origin, r.direction, limit, -1);
         if (hit)
-            *hit = describe_hit(scene, &r.first);
+            *hit = describe_hit(scene, &r.first, settings->quantity);
     }
     estimate(settings, stream, sample_ray, &r, answer);
 }

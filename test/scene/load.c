@@ -182,8 +182,11 @@ static void nothing_is_loaded_for_patterns_that_are_not_there(void **state) {
 
 static void mixtures_are_checked(void **state) {
     (void)state;
-    assert_refused("void plastic p 0 0 5 1 1 1 0 0 void mixfunc m 4 p void .5 . 0 0 m sphere s 0 0 4 0 0 0 1",
-                   ":1:32: mixfunc m", "void is not supported yet");
+    assert_refused("void dielectric d 0 0 5 1 1 1 1.5 0 void mixfunc m 4 d void .5 . 0 0 m sphere s 0 0 4 0 0 0 1",
+                   ":1:37: mixfunc m", "a mixture with a dielectric or a prism is not supported");
+    assert_refused("void brightfunc p 2 1 . 0 0 void plastic a 0 0 5 1 1 1 0 0 void mixfunc m 4 a p .5 . 0 0 "
+                   "m sphere s 0 0 4 0 0 0 1 p sphere t 0 0 4 3 0 0 1",
+                   ":1:1: brightfunc p", "there is no material behind it");
     assert_refused("void plastic p 0 0 5 1 1 1 0 0 void light l 0 0 3 1 1 1 void mixfunc m 4 p l .5 . 0 0 "
                    "m sphere s 0 0 4 0 0 0 1",
                    "mixfunc m", "shines");

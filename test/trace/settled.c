@@ -59,6 +59,10 @@ static void nothing_but_a_lamp(void **state) {
     assert_exact(LAMP "void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 "
                       "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR,
                  1);
+    /* Suns that overlap, and one before the sky. */
+    assert_exact("void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 far source again 0 0 4 1 0 1 5 "
+                 "void glow g 0 0 4 1 1 1 0 g source sky 0 0 4 0 0 1 180 void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR,
+                 0);
     /* Other things below the horizon, and diffuse surfaces above it that no reflection may go to. */
     assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m sphere ball 0 0 4 0 0 -2 1 m " FLOOR, 1);
     assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m sphere ball 0 0 4 -4 -4 1 1 m " FLOOR, 0);

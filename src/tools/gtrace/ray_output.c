@@ -160,7 +160,7 @@ static void append_name(record_buffer *out, const char *name) {
 static double effective_distance(const ray_values *v) {
     double mirrored = rgb_brightness(v->mirrored);
     bool mirrors = mirrored > 0 && mirrored > 0.5 * rgb_brightness(v->value);
-    return mirrors ? v->mirrored_distance : v->hit->distance;
+    return mirrors ? v->mirrored_distance : v->seen_distance;
 }
 
 static void append_letter(const ray_output *o, char letter, record_buffer *out, const ray_values *v) {
@@ -198,8 +198,10 @@ static void append_letter(const ray_output *o, char letter, record_buffer *out, 
     case 'R':
         append_number(o, out, v->mirrored_distance);
         break;
-    case 'L':
     case 'X':
+        append_number(o, out, v->seen_distance);
+        break;
+    case 'L':
         append_number(o, out, v->hit->distance);
         break;
     case 'c':

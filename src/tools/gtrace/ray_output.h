@@ -33,7 +33,8 @@ graze_status ray_output_parse(ray_output *, const char *letters, char format, co
 /* All that letters may ask for. */
 typedef struct ray_values {
     graze_vec3 origin, direction;
-    const graze_hit *hit;
+    const graze_hit *hit; /* also of a surface that is hidden from behind (-bv-) */
+    double seen_distance; /* to what is seen: beyond such surfaces */
     graze_rgb value, standard_error, coefficient, contribution, mirrored, unmirrored;
     double mirrored_distance; /* GRAZE_FAR: no mirror */
     double weight;
