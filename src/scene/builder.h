@@ -27,6 +27,15 @@ int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
 /* Whether some light goes straight through some of it. */
 bool scene_material_is_pane(const graze_scene *, const scene_material *);
 
+/* The material of a modifier, or a negative number where it has none that can be used (reported). */
+int scene_material_of_modifier(scene_builder *, int modifier);
+
+/* The material that is SCENE_NOTHING. */
+int scene_nothing(scene_builder *);
+
+/* What a material says that it is seen as, by its one string argument: an index into materials. */
+graze_status scene_read_alternate(scene_builder *, const rad_primitive *, int *alternate);
+
 /* The shape of a surface, with what its material says of it. Its material; or a negative number where there is no
  * surface (reported). */
 int scene_read_shape(scene_builder *, int primitive, shape *);

@@ -4,6 +4,12 @@
 
 #include "scene/scene.h"
 
+/* Whether the light shines through the front of an illum, which stands for what is behind it: glows and other illums.
+ */
+static inline bool light_is_proper(const graze_scene *scene, int light) {
+    return !scene->lights[light].glow && !scene->lights[light].secondary;
+}
+
 /* The role of a light for a point at `distance` (GEOMETRY_FAR for sources). */
 light_role light_role_at(const scene_light *, double distance);
 

@@ -20,6 +20,7 @@ static bool is_mirror(const scene_material *material) {
     case SCENE_FUNCTION:
         return material->reflection->mirrors;
     case SCENE_EMITTER:
+    case SCENE_PRISM:
     case SCENE_MIXTURE:
     case SCENE_NOTHING:
         break;
@@ -28,6 +29,7 @@ static bool is_mirror(const scene_material *material) {
 }
 
 bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
+    material = scene_material_seen(scene, material);
     switch (material->kind) {
     case SCENE_REFLECTOR:
     case SCENE_ORIENTED:
@@ -42,12 +44,11 @@ bool scene_material_is_pane(const graze_scene *scene, const scene_material *mate
     case SCENE_NOTHING:
         return true;
     case SCENE_EMITTER:
+    case SCENE_PRISM:
         break;
     }
     return false;
 }
-
-static int material_of(scene_builder *, int modifier);
 
 graze_status scene_need_modifiers(scene_builder *b) {
     graze_scene *scene = b->scene;
@@ -77,14 +78,10 @@ static int mixed_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain = {.material = RAD_VOID};
     if (modifier != RAD_VOID && material_chain_find(&chain, scene->modifiers, modifier))
-        return material_of(b, modifier);
+        return scene_material_of_modifier(b, modifier);
     if (chain.material != RAD_VOID)
-        return material_of(b, modifier);
-    if (b->nothing < 0) {
-        b->nothing = (int)scene->material_count++;
-        scene->materials[b->nothing] = (scene_material){.kind = SCENE_NOTHING, .primitive = RAD_VOID};
-    }
-    return b->nothing;
+        return scene_material_of_modifier(b, modifier);
+    return scene_nothing(b);
 }
 
 /* Both materials of a mixture. */
@@ -99,8 +96,10 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
     const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
     if (scene_material_emits(fore) || scene_material_emits(back))
         return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
-    if (scene_material_refracts(fore) || scene_material_refracts(back))
-        return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
+    if (scene_material_bends(fore) || scene_material_bends(back))
+        return rad_primitive_error(b->report, p, "a mixture with a dielectric or a prism is not supported");
+    material->fore = (int)(scene_material_seen(b->scene, fore) - b->scene->materials);
+    material->back = (int)(scene_material_seen(b->scene, back) - b->scene->materials);
     return GRAZE_OK;
 }
 
@@ -109,7 +108,10 @@ static graze_status read_emitter(scene_builder *b, scene_material *material, con
     material->seen_light = -1;
     graze_status status = emitter_to_light(&material->light, p, b->report);
     material->light.modifiers = material->modifiers;
-    return status;
+    if (status || p->type != RAD_ILLUM)
+        return status;
+    b->scene->has_secondary = true;
+    return scene_read_alternate(b, p, &material->alternate);
 }
 
 static graze_status read_function(scene_builder *b, scene_material *material, const rad_primitive *p) {
@@ -120,6 +122,13 @@ static graze_status read_function(scene_builder *b, scene_material *material, co
     return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
 }
 
+static graze_status read_prism(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_PRISM;
+    graze_status status = scene_need_modifiers(b);
+    return status ? status
+                  : material_prism_compile(&material->prism, material_modifiers_library(b->scene->modifiers), p);
+}
+
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_WGMD;
     material->model = scene_choose_model(b->settings, p);
@@ -127,10 +136,25 @@ static graze_status read_wgmd(scene_builder *b, scene_material *material, const 
     return status ? status : material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
 }
 
+/* A mirror that is seen as something else. */
+static graze_status read_mirror(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    graze_status status = scene_read_alternate(b, p, &material->alternate);
+    if (status)
+        return status;
+    const scene_material *seen = scene_material_seen(b->scene, &b->scene->materials[material->alternate]);
+    bool through = seen->kind == SCENE_REFLECTOR || seen->kind == SCENE_ORIENTED;
+    through = through && (seen->reflector.kind == GRAZE_TRANS || seen->reflector.kind == GRAZE_GLASS ||
+                          seen->reflector.kind == GRAZE_DIELECTRIC);
+    material->keeps_front = !through;
+    return GRAZE_OK;
+}
+
 static graze_status read_reflector(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = material_orients_by_function(p) ? SCENE_ORIENTED : SCENE_REFLECTOR;
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
+    if (!status && p->type == RAD_MIRROR && p->string_count > 0)
+        return read_mirror(b, material, p);
     if (status || material->kind == SCENE_REFLECTOR)
         return status;
     status = scene_need_modifiers(b);
@@ -144,6 +168,8 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
         return read_emitter(b, material, p);
     if (material_reflects_by_function(p->type))
         return read_function(b, material, p);
+    if (material_is_prism(p->type))
+        return read_prism(b, material, p);
     if (p->type == RAD_WGMDFUNC)
         return read_wgmd(b, material, p);
     return read_reflector(b, material, p);
@@ -152,7 +178,7 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
 static int add_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain;
-    scene_material made = {.kind = SCENE_REFLECTOR};
+    scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1};
     graze_status status = find_chain(b, modifier, &chain);
     if (!status) {
         made.primitive = chain.material;
@@ -165,14 +191,13 @@ static int add_material(scene_builder *b, int modifier) {
         return MATERIAL_REFUSED;
     }
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || scene_material_refracts(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || scene_material_bends(&made);
     scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
-    scene->has_refraction = scene->has_refraction || scene_material_refracts(&made);
+    scene->has_refraction = scene->has_refraction || scene_material_bends(&made);
     return (int)scene->material_count++;
 }
 
-/* The material of a modifier, or a negative number where it has none that can be used (reported). */
-static int material_of(scene_builder *b, int modifier) {
+int scene_material_of_modifier(scene_builder *b, int modifier) {
     if (b->material_of[modifier] == -1)
         b->material_of[modifier] = add_material(b, modifier);
     return b->material_of[modifier];
@@ -183,5 +208,5 @@ int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
         scene_fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
         return MATERIAL_REFUSED;
     }
-    return material_of(b, surface->modifier);
+    return scene_material_of_modifier(b, surface->modifier);
 }

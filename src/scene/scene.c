@@ -94,7 +94,7 @@ static void note_mirror(scene_builder *b, int index) {
     }
     scene->mirrors = grown;
     scene->mirrors[scene->mirror_count++] = index;
-    scene->surfaces[index].mirrors = true;
+    scene->surfaces[index].mirrors = m->alternate < 0 || m->keeps_front;
 }
 
 static void add_shape(scene_builder *b, int primitive) {

@@ -234,9 +234,15 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
     case SCENE_MIXTURE:
         prepare_mixture(p, hit, of, m, e, v);
         break;
+    case SCENE_PRISM:
+        appearance_prepare_prism(p, hit, of, m->prism, v);
+        break;
+    case SCENE_NOTHING:
+        prepare_reflector(p, hit, of, &black, &e, v);
+        perforate(p, hit, 0, v);
+        break;
     case SCENE_EMITTER:
     case SCENE_WGMD:
-    case SCENE_NOTHING:
         break;
     }
 }
@@ -247,7 +253,7 @@ void appearance_prepare(const path *p, const path_hit *hit, const scene_material
 }
 
 vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double length) {
-    const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    const scene_material *m = scene_material_at(scene, hit->surface);
     const encounter of = encounter_meet(scene, hit, length);
     material_effect e = of.effect;
     for (;;) {
@@ -298,6 +304,7 @@ static rgb straight_through(const scene_material *materials, const scene_materia
     case SCENE_WGMD:
         return appearance_through_wgmd(hit, of, m, before);
     case SCENE_EMITTER:
+    case SCENE_PRISM:
         break;
     }
     return rgb_gray(0);

@@ -30,4 +30,7 @@ rgb appearance_through_wgmd(const path_hit *, const encounter *, const scene_mat
 void appearance_prepare_wgmd(const path *, const path_hit *, const encounter *, const scene_material *,
                              material_effect before, vertex *);
 
+/* Prepares a vertex for SCENE_PRISM; of two ways on, one is drawn. */
+void appearance_prepare_prism(const path *, const path_hit *, const encounter *, const material_prism *, vertex *);
+
 #endif

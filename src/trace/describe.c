@@ -15,7 +15,7 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found, graze_qu
     int primitive = -1;
     if (found->surface >= 0) {
         const scene_surface surface = scene_surface_at(scene, found->surface);
-        const scene_material *material = &scene->materials[surface.material];
+        const scene_material *material = scene_material_seen(scene, &scene->materials[surface.material]);
         primitive = surface.primitive;
         hit.normal = found->normal;
         /* As Radiance has it: what shines, and clear bodies, have one normal on both sides. */

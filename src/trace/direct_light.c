@@ -91,7 +91,8 @@ static bool light_is_visible(const path *p, const vertex *v, const light_sample 
         .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
     if (!scene->has_panes)
         return !geometry_occluded(scene->geometry, &ray, target);
-    *light = rgb_multiply(panes_transmittance(p->context, &ray, p->length, target), *light);
+    *light = rgb_multiply(
+        panes_transmittance(p->context, &ray, p->length, target, light_is_proper(scene, sample->light)), *light);
     return !rgb_is_black(*light);
 }
 

@@ -59,12 +59,27 @@ rgb emission_radiance(const path *p, const path_hit *hit, bool lights) {
                             : light_radiance(light, hit->direction, hit->normal));
 }
 
+/* An illum stands for all that is behind it, glows and other illums: but not for lights, which shine through it. It
+ * does so for surfaces that it lights; to the eye, straight on or in mirrors, it is another material. */
+static bool is_seen_through(const path *p, const scene_light *light) {
+    if (light->secondary && !p->scattered)
+        return true;
+    return p->last.veiled && (light->secondary || light->glow);
+}
+
+void emission_pass_secondary(path *p, const path_hit *hit) {
+    if (hit->light < 0 || hit->behind || !p->scattered || !p->context->scene->lights[hit->light].secondary)
+        return;
+    p->throughput = p->last.indirect = rgb_gray(0);
+    p->last.veiled = true;
+}
+
 rgb emission_found_of(const path *p, const path_hit *hit) {
     scene_light turned;
     const scene_light *light = light_of(p, hit, &turned);
     light_role role = light_role_at(light, hit->distance + p->last.travelled);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
-    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
+    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered) || is_seen_through(p, light))
         return rgb_gray(0);
     if (lobe_scatters(p->last.lobe)) {
         if (known_light_is_settled(p, hit->light))

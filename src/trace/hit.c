@@ -5,7 +5,7 @@
 #include "scene/surface.h"
 
 static bool has_back(const graze_scene *scene, int64_t surface) {
-    return scene_material_has_back(&scene->materials[scene_surface_at(scene, surface).material]);
+    return scene_material_has_back(scene_material_at(scene, surface));
 }
 
 path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {

@@ -98,7 +98,7 @@ static void attenuate(path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
     if (hit->surface < 0)
         return;
-    const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    const scene_material *material = scene_material_at(scene, hit->surface);
     /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
     if (scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
         p->medium = medium_at(p, hit, material);
@@ -185,6 +185,8 @@ static void follow(path *p, gathering *here) {
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         observe_ray(p, v->point, &hit, found);
+        if (context->scene->has_secondary)
+            emission_pass_secondary(p, &hit);
         if (p->gloss && p->last.lobe == GRAZE_LOBE_GLOSSY)
             rare_gloss_find_met(p, v, &hit, found);
         if (p->last.first)
@@ -214,7 +216,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->last.lights = NULL;
     p->last.vertex = NULL;
     p->last.first = true;
-    p->last.refracted = false;
+    p->last.refracted = p->last.veiled = false;
     p->last.travelled = 0;
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = p->gathering = p->indirect_known = false;

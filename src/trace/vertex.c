@@ -92,9 +92,17 @@ rgb vertex_function_value(const vertex *v, vec3 direction) {
 /* Whether a path that carries nothing may still find lights behind a surface. */
 static bool looks_through(const path *p, const scene_material *material, int64_t surface) {
     const graze_scene *scene = p->context->scene;
-    bool clear = scene_surface_passes(scene, surface) || scene_material_refracts(material) ||
-                 mirrored_light_is_in(scene, surface);
+    bool clear =
+        scene_surface_passes(scene, surface) || scene_material_bends(material) || mirrored_light_is_in(scene, surface);
     return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
+}
+
+/* What the path meets. */
+static const scene_material *material_met(const path *p, const path_hit *hit, int index) {
+    const scene_material *material = &p->context->scene->materials[index];
+    if (material->alternate < 0 || (material->keeps_front && p->scattered && !hit->behind))
+        return material;
+    return scene_material_seen(p->context->scene, material);
 }
 
 /* For the irradiance where a ray hits first: textures do not count, as in Radiance, but the normals of a mesh do. */
@@ -113,7 +121,7 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         return false;
     const graze_scene *scene = p->context->scene;
     const scene_surface surface = scene_surface_at(scene, hit->surface);
-    const scene_material *material = &scene->materials[surface.material];
+    const scene_material *material = material_met(p, hit, surface.material);
     if (scene_material_emits(material) || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);

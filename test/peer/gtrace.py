@@ -123,6 +123,24 @@ def cases():
     yield Case("glass ball, drop and bead", "clear", aim([.2, -4, 1.5], grid([-1.8, 0, -.9], [1.9, 0, .9], 144, clear)), "-ab 0",
                repeat=4, samples=32768)
 
+    # Lights that are seen as other things, and what is not where it seems.
+    odd = np.random.default_rng(20100405)
+    yield Case("illums, irradiance", "illum", sensors([-2.5, -2.5, 0], [2.5, 2.5, 0], 144, up, odd), "-I -ab 0", repeat=256)
+    yield Case("illums, one bounce", "illum", sensors([-2.5, -2.5, 1.4], [2.5, 2.5, 1.4], 36, [0, 0, -1], odd), "-I -ab 1", "-ad 1024", repeat=64, samples=16384)
+    yield Case("illums, seen", "illum", aim([0, -.5, .3], grid([-1.8, -2.5, 1.7], [1.8, 2.6, 1.7], 100, odd)), "-ab 0 -st 1", repeat=64)
+    yield Case("illums, seen from above", "illum", aim([0, 0, 4], grid([-2, -2.5, 0], [2, 2.5, 0], 100, odd)), "-ab 0 -st 1", repeat=256)
+
+    # Radiance's virtual lights in prisms are where it takes them to be by one ray: what only bounces find is exact.
+    yield Case("prisms, irradiance", "prisms", sensors([-2.5, -2.5, 0], [2.5, 2.5, 0], 64, up, odd), "-I -ab 1", "-dr 0 -ad 1024", repeat=32, samples=32768)
+    yield Case("prisms, seen", "prisms_seen", np.vstack([aim(eye, grid([-2, 1.5, .1], [2, 1.5, 2.1], 81, odd)) for eye in [[.1, -3, 1], [.1, 4, 1]]]),
+               "-ab 0", repeat=4, samples=16384)
+
+    yield Case("alternates of mirrors, irradiance", "alternates", sensors([-2.8, -2.8, 0], [2.8, 1.9, 0], 100, up, odd), "-I -ab 0", "-dr 1 -dp 0", repeat=256)
+    yield Case("alternates of mirrors, one bounce", "alternates", sensors([-2.8, -2.8, 0], [2.8, 1.9, 0], 36, up, odd), "-I -ab 1", "-dr 1 -dp 0 -ad 1024", repeat=64,
+               samples=16384)
+    yield Case("alternates of mirrors, seen", "alternates", np.vstack([aim(eye, grid([-2.8, 2, .1], [2.8, 2, 2], 64, odd)) for eye in [[.1, -2, 1], [.1, 4, 1]]]),
+               "-ab 0", "-dr 1 -dp 0", repeat=64)
+
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]
