@@ -12,6 +12,7 @@ typedef struct scene_builder {
     size_t own, own_surfaces; /* of the primitives, those that are the scene's and no copied part's */
     int *material_of;         /* by primitive: index into scene->materials, or -1 */
     int nothing;              /* index of the one that is SCENE_NOTHING, or -1 */
+    bool mixed_lights;        /* some mixture shines */
     graze_status status;
 } scene_builder;
 
@@ -39,6 +40,9 @@ graze_status scene_read_alternate(scene_builder *, const rad_primitive *, int *a
 /* The shape of a surface, with what its material says of it. Its material; or a negative number where there is no
  * surface (reported). */
 int scene_read_shape(scene_builder *, int primitive, shape *);
+
+/* What shines among the scene's own surfaces by a mixture is given its lights. After all other lights of the scene. */
+void scene_add_mixed_lights(scene_builder *);
 
 /* Builds what the instances and meshes of all parts are copies of; graze_scene.parts are then filled in. */
 void scene_add_copies(scene_builder *);

@@ -36,12 +36,6 @@ static rgb within_range(rgb a) {
                  fmin(fmax(a.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
-rgb light_patterned_for(const scene_light *light, rgb radiance, const material_ray *ray) {
-    if (!light->modifiers || rgb_is_black(radiance))
-        return radiance;
-    return within_range(rgb_multiply(radiance, material_modify(light->modifiers, ray).color));
-}
-
 rgb light_pattern_radiance(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal,
                            double distance, double travelled) {
     if (rgb_is_black(radiance))
@@ -51,7 +45,7 @@ rgb light_pattern_radiance(const scene_light *light, rgb radiance, vec3 point, v
                               .normal = light->shape ? normal : vec3_negate(direction),
                               .distance = travelled + distance,
                               .last_distance = distance};
-    return light_patterned_for(light, radiance, &ray);
+    return within_range(rgb_multiply(radiance, material_modify(light->modifiers, &ray).color));
 }
 
 /* 1 - cos of the angle between unit vectors is |a - b|^2 / 2: exact for the sun's small angles. */

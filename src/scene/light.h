@@ -50,9 +50,6 @@ typedef struct light_sample {
     rgb radiance;
 } light_sample;
 
-/* The same for a ray as the light's patterns know it. */
-rgb light_patterned_for(const scene_light *, rgb radiance, const material_ray *);
-
 /* Draws a direction from the point, which is `travelled` away from the eye, towards a light, by two numbers in
  * [0,1). */
 light_sample light_draw(const graze_scene *, vec3 point, double travelled, int index, const double random[2]);

@@ -93,13 +93,19 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
     material->back = mixed_material(b, mixture->back);
     if (material->fore < 0 || material->back < 0)
         return b->status;
-    const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
-    if (scene_material_emits(fore) || scene_material_emits(back))
-        return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
+    const scene_material *all = b->scene->materials;
+    const scene_material *fore = scene_material_seen(b->scene, &all[material->fore]);
+    const scene_material *back = scene_material_seen(b->scene, &all[material->back]);
+    material->fore = (int)(fore - all);
+    material->back = (int)(back - all);
+    const int by_fore = scene_material_shining(b->scene, material->fore);
+    const int by_back = scene_material_shining(b->scene, material->back);
+    if (by_fore >= 0 && by_back >= 0)
+        return rad_primitive_error(b->report, p, "a mixture of two materials that shine is not supported");
+    material->shining = by_fore >= 0 ? by_fore : by_back;
+    b->mixed_lights = b->mixed_lights || material->shining >= 0;
     if (scene_material_bends(fore) || scene_material_bends(back))
         return rad_primitive_error(b->report, p, "a mixture with a dielectric or a prism is not supported");
-    material->fore = (int)(scene_material_seen(b->scene, fore) - b->scene->materials);
-    material->back = (int)(scene_material_seen(b->scene, back) - b->scene->materials);
     return GRAZE_OK;
 }
 

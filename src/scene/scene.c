@@ -129,6 +129,10 @@ static void add_source(scene_builder *b, int primitive) {
     int material = scene_material_of_surface(b, p);
     if (material < 0)
         return;
+    if (!scene_material_emits(&b->scene->materials[material]) && scene_material_shining(b->scene, material) >= 0) {
+        scene_fail(b, rad_primitive_error(b->report, p, "a source that shines by a mixture is not supported"));
+        return;
+    }
     if (!scene_material_emits(&b->scene->materials[material])) {
         rad_primitive_warning(b->report, p, "a source whose material does not shine does nothing");
         return;
@@ -253,6 +257,7 @@ static graze_status add_all(scene_builder *b) {
         return b->status;
     scene_check_ambient(b->settings, scene->primitives, scene->primitive_count, b->report);
     add_surfaces(b);
+    scene_add_mixed_lights(b);
     if (has_copies(scene) && b->status != GRAZE_SYSTEM_ERROR)
         scene_add_copies(b);
     return b->status;

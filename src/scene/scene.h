@@ -47,7 +47,7 @@ typedef struct scene_light {
     vec3 center;        /* of a source: the unit direction towards it */
     bool alone;         /* of a source: no part of it is a source's that is before it in the scene's lights */
     double half_angle;  /* of a source, radians */
-    bool only_seen;     /* it is in a copy: no light for others, but of a glow beyond its radius */
+    bool only_seen;     /* it is in a copy, or a mixture: no light for others, but of a glow beyond its radius */
 } scene_light;
 
 typedef enum scene_material_kind {
@@ -75,7 +75,7 @@ typedef struct scene_material {
         };
         struct {               /* SCENE_EMITTER */
             scene_light light; /* what the material says of a light */
-            int seen_light;    /* index into lights of the one that surfaces in copies are; or -1 */
+            int seen_light;    /* index into lights of the one that surfaces in copies and mixtures are; or -1 */
         };
         const material_reflection *reflection; /* SCENE_FUNCTION */
         const material_prism *prism;           /* SCENE_PRISM */
@@ -86,6 +86,7 @@ typedef struct scene_material {
         struct { /* SCENE_MIXTURE */
             const material_modifier *share;
             int fore, back; /* indices into materials */
+            int shining;    /* the emitter among these, and theirs, or -1 */
         };
     };
 } scene_material;
@@ -155,6 +156,12 @@ static inline const scene_material *scene_material_seen(const graze_scene *scene
 /* Whether the material shines: it is then no more than that. */
 static inline bool scene_material_emits(const scene_material *m) {
     return m->kind == SCENE_EMITTER;
+}
+
+/* Which material it shines by, itself or one in its mixtures; or -1. */
+static inline int scene_material_shining(const graze_scene *scene, int material) {
+    const scene_material *m = &scene->materials[material];
+    return scene_material_emits(m) ? material : m->kind == SCENE_MIXTURE ? m->shining : -1;
 }
 
 /* Whether it bounds a clear body that refracts. */

@@ -5,10 +5,6 @@
 #include "trace/appearance_kinds.h"
 #include "trace/vertex.h"
 
-material_ray appearance_ray(const graze_scene *scene, const path_hit *hit, double length) {
-    return encounter_meet(scene, hit, length).ray;
-}
-
 vec3 appearance_lean(const path_hit *hit, const encounter *of, const material_effect *e, vertex *v) {
     vec3 normal = encounter_lean(hit, of, e);
     v->leans = !vec3_is_same(normal, v->normal);
@@ -242,6 +238,8 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
         perforate(p, hit, 0, v);
         break;
     case SCENE_EMITTER:
+        prepare_reflector(p, hit, of, &black, &e, v);
+        break;
     case SCENE_WGMD:
         break;
     }
@@ -313,4 +311,23 @@ static rgb straight_through(const scene_material *materials, const scene_materia
 rgb appearance_straight_through(const graze_scene *scene, const scene_material *m, const path_hit *hit, double length) {
     const encounter of = encounter_meet(scene, hit, length);
     return straight_through(scene->materials, m, hit, &of, of.effect);
+}
+
+/* The colour of what shines, and how much of the surface does. */
+static rgb shining(const scene_material *materials, const scene_material *m, const material_ray *ray,
+                   material_effect before) {
+    double share;
+    const material_effect e = encounter_add_effect(m->modifiers, ray, before);
+    if (scene_material_emits(m))
+        return encounter_colored(rgb_gray(1), e.color);
+    if (m->kind != SCENE_MIXTURE || !material_mixture_share(m->share, ray, &share))
+        return rgb_gray(0);
+    return blend(share, shining(materials, &materials[m->fore], ray, e),
+                 shining(materials, &materials[m->back], ray, e));
+}
+
+rgb appearance_emission(const graze_scene *scene, const path_hit *hit, double length, rgb radiance) {
+    const encounter of = encounter_meet(scene, hit, length);
+    const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    return encounter_colored(radiance, shining(scene->materials, m, &of.ray, of.effect));
 }

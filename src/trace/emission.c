@@ -30,10 +30,8 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
 
 static rgb patterned(const path *p, const path_hit *hit, rgb radiance) {
     const scene_light *light = &p->context->scene->lights[hit->light];
-    if (light->only_seen && light->modifiers) {
-        const material_ray ray = appearance_ray(p->context->scene, hit, p->length);
-        return light_patterned_for(light, radiance, &ray);
-    }
+    if (light->only_seen)
+        return rgb_is_black(radiance) ? radiance : appearance_emission(p->context->scene, hit, p->length, radiance);
     return light_patterned(light, radiance, hit->point, hit->direction, hit->normal, hit->distance, p->length);
 }
 

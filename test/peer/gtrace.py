@@ -110,6 +110,12 @@ def cases():
         for side, eye in [("from above", [.2, -.4, 14]), ("from below", [.3, -1, -.8])]:
             yield Case(f"{name} {side}", f"lamp {scene}", aim(eye, grid([-2, -2, 0], [2, 2, 0], 100, clear)), "-ab 0", "-ss 64",
                        repeat=256, samples=8192)
+    signs = grid([-2, -2, 0], [3.8, 2, 0], 144, clear)
+    for side, eye in [("from above", [.2, -.4, 14]), ("from below", [.3, -1, -.8])]:
+        yield Case("mixtures that shine " + side, "lamp signs", aim(eye, signs), "-ab 0", "-ss 64", repeat=256, samples=8192,
+                   own_options="-w-")
+    yield Case("floor under mixtures that shine, irradiance", "lamp signs", below[::4], "-I -ab 1", "-ad 1024", repeat=64,
+               samples=16384, own_options="-w-")
     yield Case("rippled panes", "ripples", aim([.4, -4, 1.2], grid([-2, 0, 0], [3, 0, 2], 144, clear)), "-ab 0", "-ss 64", repeat=256,
                samples=8192)
     sheets = grid([-.95, 0, .1], [1.95, 0, 1.9], 144, clear)

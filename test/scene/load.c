@@ -187,11 +187,39 @@ static void mixtures_are_checked(void **state) {
     assert_refused("void brightfunc p 2 1 . 0 0 void plastic a 0 0 5 1 1 1 0 0 void mixfunc m 4 a p .5 . 0 0 "
                    "m sphere s 0 0 4 0 0 0 1 p sphere t 0 0 4 3 0 0 1",
                    ":1:1: brightfunc p", "there is no material behind it");
-    assert_refused("void plastic p 0 0 5 1 1 1 0 0 void light l 0 0 3 1 1 1 void mixfunc m 4 p l .5 . 0 0 "
+    assert_refused("void glow g 0 0 4 1 1 1 0 void light l 0 0 3 1 1 1 void mixfunc m 4 g l .5 . 0 0 "
                    "m sphere s 0 0 4 0 0 0 1",
-                   "mixfunc m", "shines");
+                   "mixfunc m", "a mixture of two materials that shine is not supported");
+    assert_refused("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m source s 0 0 4 0 0 1 9", "source s",
+                   "a source that shines by a mixture is not supported");
     assert_refused("void mixfunc m 4 void void .5 . 0 0 m sphere s 0 0 4 0 0 0 1", ":1:1: mixfunc m",
                    "there is no material behind it");
+}
+
+/* One light for all surfaces, which is none that is sampled; lamps are told of, a glow that is seen only anyway is not.
+ */
+static void mixtures_that_shine_are_seen_only(void **state) {
+    (void)state;
+    const char *text = "void light l 0 0 3 1 2 1 void plastic p 0 0 5 1 1 1 0 0 void mixfunc m 4 %s p .5 . 0 0 "
+                       "void mixfunc n 4 m void .5 . 0 0 n sphere s 0 0 4 0 0 0 1 m sphere t 0 0 4 3 0 0 1 "
+                       "l sphere lamp 0 0 4 9 0 0 1 void glow g 0 0 4 1 1 1 0";
+    char with[400];
+    snprintf(with, sizeof with, text, "l");
+    graze_scene *scene = scene_from_text(with);
+    assert_non_null(scene);
+    assert_int_equal(scene->light_count, 1);
+    assert_int_equal(scene->seen_light_count, 1);
+    assert_int_equal(scene->surfaces[0].light, 1);
+    assert_int_equal(scene->surfaces[1].light, 1);
+    assert_int_equal(scene->surfaces[2].light, 0);
+    assert_true(scene->lights[1].only_seen && scene->lights[1].radiance.g == 2);
+    assert_non_null(strstr(messages, "sphere s: shines, but lights nothing: what is in a mixture is seen only"));
+    assert_null(strstr(messages, "sphere t"));
+    graze_scene_destroy(scene);
+    scene = scene_from_text("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_string_equal(messages, "");
+    graze_scene_destroy(scene);
 }
 
 static void an_empty_scene_is_a_scene(void **state) {
@@ -217,6 +245,7 @@ int main(void) {
         cmocka_unit_test(models_are_for_materials_that_reflect),
         cmocka_unit_test(nothing_is_loaded_for_patterns_that_are_not_there),
         cmocka_unit_test(mixtures_are_checked),
+        cmocka_unit_test(mixtures_that_shine_are_seen_only),
         cmocka_unit_test(an_empty_scene_is_a_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
