@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "rad/reader.h"
+
 static graze_status add(definition_list *list, graze_definitions added, const graze_report *report) {
     if (list->count == list->capacity) {
         size_t capacity = list->capacity ? 2 * list->capacity : 8;
@@ -19,13 +21,14 @@ static graze_status add(definition_list *list, graze_definitions added, const gr
 
 /* Messages call it as it stands on the command line. */
 static graze_status add_expression(definition_list *list, const char *text, const graze_report *report) {
-    size_t size = strlen(text) + sizeof "-e ";
+    const rad_shown shown = rad_show(text, strlen(text));
+    const size_t size = sizeof shown + sizeof "-e ";
     if (!list->memory)
         list->memory = arena_create();
     char *name = list->memory ? arena_allocate(list->memory, size) : NULL;
     if (!name)
         return report_out_of_memory(report);
-    snprintf(name, size, "-e %s", text);
+    snprintf(name, size, "-e %s", shown.text);
     return add(list, (graze_definitions){.text = text, .file = name}, report);
 }
 
