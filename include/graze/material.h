@@ -119,13 +119,13 @@ typedef struct graze_surface {
     graze_lobe specular_lobe; /* GLOSSY, MIRROR, or NONE where `specular` is black */
     graze_brdf lobe;          /* for GLOSSY; of ashik2 its model is GRAZE_BRDF_MODEL_COUNT, none, and: */
     double power_u, power_v;
-    graze_vec3 x, y, n;    /* shading frame: x along u, right-handed, orthonormal */
-    graze_vec3 view;       /* towards the viewer */
-    graze_vec3 local_view; /* the same in the frame */
-    int transmits;         /* some light comes from the other side; else the following are not set: */
+    graze_vec3 x, y, n;          /* shading frame: x along u, right-handed, orthonormal */
+    graze_vec3 view;             /* towards the viewer */
+    graze_vec3 local_view;       /* the same in the frame */
+    int transmits;               /* some light comes from the other side; else the following are not set: */
+    graze_lobe transmitted_lobe; /* TRANSMITTED_GLOSSY, TRANSMITTED, or NONE where transmitted_specular is black */
     graze_rgb transmitted_diffuse;
     graze_rgb transmitted_specular;
-    graze_lobe transmitted_lobe; /* TRANSMITTED_GLOSSY, TRANSMITTED, or NONE where transmitted_specular is black */
     graze_vec3 transmitted; /* the direction in which the viewer looks on beyond the surface; the middle of a lobe */
     double transmitted_u, transmitted_v; /* a_u, a_v of TRANSMITTED_GLOSSY */
 } graze_surface;

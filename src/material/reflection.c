@@ -122,7 +122,7 @@ static graze_status compile_general(material_reflection *r, material_library *li
         bool none = strcmp(words[FUNCTION + i], "0") == 0;
         mirror[i] = (cal_expression){.text = words[MIRROR + i]};
         through[i] = (cal_expression){.text = words[THROUGH + i]};
-        value[i] = none ? (cal_expression){.text = "0"} : (cal_expression){words[FUNCTION + i], ARGUMENTS, LIGHT};
+        value[i] = (cal_expression){words[FUNCTION + i], none ? 0 : ARGUMENTS, LIGHT};
         r->by_function = r->by_function || !none;
     }
     r->mirrors = !are_zero(words + MIRROR);

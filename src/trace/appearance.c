@@ -157,15 +157,16 @@ static void perforate(const path *p, const path_hit *hit, double share, vertex *
     s->transmits = 1;
     s->transmitted_lobe = GRAZE_LOBE_TRANSMITTED;
     s->transmitted = hit->direction;
-    rgb *const parts[] = {&s->diffuse, &s->specular,           &s->transmitted_diffuse, &s->transmitted_specular,
-                          &v->ambient, &v->transmitted_ambient};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        *parts[i] = rgb_scale(share, *parts[i]);
+    s->diffuse = rgb_scale(share, s->diffuse);
+    s->specular = rgb_scale(share, s->specular);
+    s->transmitted_diffuse = rgb_scale(share, s->transmitted_diffuse);
+    s->transmitted_specular = rgb_add(rgb_scale(share, s->transmitted_specular), rgb_gray(1 - share));
+    v->ambient = rgb_scale(share, v->ambient);
+    v->transmitted_ambient = rgb_scale(share, v->transmitted_ambient);
     if (v->function) {
         v->function_color = rgb_scale(share, v->function_color);
         v->transmitted_function = rgb_scale(share, v->transmitted_function);
     }
-    s->transmitted_specular = rgb_add(s->transmitted_specular, rgb_gray(1 - share));
     vertex_set_passage(p, v);
 }
 

@@ -202,7 +202,7 @@ static void mixtures_that_shine_are_seen_only(void **state) {
     (void)state;
     const char *text = "void light l 0 0 3 1 2 1 void plastic p 0 0 5 1 1 1 0 0 void mixfunc m 4 %s p .5 . 0 0 "
                        "void mixfunc n 4 m void .5 . 0 0 n sphere s 0 0 4 0 0 0 1 m sphere t 0 0 4 3 0 0 1 "
-                       "l sphere lamp 0 0 4 9 0 0 1 void glow g 0 0 4 1 1 1 0";
+                       "l sphere lamp 0 0 4 9 0 0 1";
     char with[400];
     snprintf(with, sizeof with, text, "l");
     graze_scene *scene = scene_from_text(with);

@@ -245,23 +245,27 @@ static inline void print_color(random_scene *s, double most) {
         print_scene(s, " %.17g", roll_between(&s->dice, 0, most));
 }
 
-/* Small lights are only compared where no mirror or pane shows them to those that do not sample them. */
+/* Of directions, Ldx is the part along a vector in the surface, by where its last three reals point, and Ldz that along
+ * the normal: wherever the scene stands. Small lights are only compared where no mirror or pane shows them to those
+ * that do not sample them. */
 static inline void add_function_material(random_scene *s, int number) {
     bool clear = s->kind != RANDOM_SMALL_LIGHT && roll(&s->dice) < 0.5;
     switch (roll_below(&s->dice, 4)) {
     case 0:
-        print_scene(s, "void transfunc m%d 2 max . 0 6", number);
+        print_scene(s, "void transfunc m%d 2 Ldx . 0 9", number);
         print_color(s, 0.85);
         print_color(s, 0.9);
+        print_vector(s, place_vector(&s->placement, roll_direction(&s->dice)));
         break;
     case 1:
         print_scene(s, "void BRTDfunc m%d 10", number);
         print_color(s, clear ? 0.2 : 0);
         print_color(s, clear ? 0.4 : 0);
-        print_scene(s, " max max min . 0 9");
+        print_scene(s, " Ldx Ldx Ldz . 0 12");
         print_color(s, 0.3);
         print_color(s, 0.3);
         print_color(s, 0.3);
+        print_vector(s, place_vector(&s->placement, roll_direction(&s->dice)));
         break;
     case 2:
         print_scene(s, "void WGMDfunc m%d 13 void %.17g", number, roll_between(&s->dice, 0, 0.3));
