@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/large_memory.h"
 #include "base/parallel.h"
 #include "geometry/geometry_internal.h"
 
@@ -354,7 +355,9 @@ static bool is_large(const geometry *g) {
 
 static RTCDevice make_device(const geometry *g, int threads) {
     char settings[64];
-    snprintf(settings, sizeof settings, "threads=%d,set_affinity=0", threads > 1 && is_large(g) ? threads : 1);
+    bool large = is_large(g);
+    snprintf(settings, sizeof settings, "threads=%d,set_affinity=0,hugepages=%d", large && threads > 1 ? threads : 1,
+             large);
     return rtcNewDevice(settings);
 }
 
@@ -388,7 +391,7 @@ static bool number_surfaces(const geometry *g, geometry_tree *tree) {
 }
 
 static bool allocate_surfaces(geometry_tree *tree) {
-    tree->triangles = aligned_alloc(64, (tree->triangle_count + 1) * sizeof *tree->triangles);
+    tree->triangles = large_memory(tree->triangle_count + 1, sizeof *tree->triangles);
     tree->curved = malloc((tree->curved_count + 1) * sizeof *tree->curved);
     return tree->triangles && tree->curved;
 }
