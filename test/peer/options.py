@@ -45,7 +45,10 @@ def what_counts(random):
     tiles = LAMPS + SKY + board(MATERIALS, "void")
     yield Case("the ambient value on every material", tiles, looks(len(MATERIALS), random), "-ab 0 -st 1 -av .3 .2 .1", repeat=16,
                own_repeat=2048)
-    yield Case("irradiance on every material", tiles, looks(len(MATERIALS), random, each=3), "-i -ab 0", repeat=16)
+    passing = [*MATERIALS, "WGMDfunc M 13 void .1 .1 .1 void .5 .1 .1 void 1 .2 0 . 0 9 .5 .4 .3 .1 .2 .6 0 0 0",
+               "BRTDfunc M 10 0 0 0 .5 .5 .5 0 0 0 . 0 9 .5 .4 .3 .1 .2 .6 0 0 0", "transfunc M 2 lobe modifiers.cal 0 7 .6 .5 .4 .4 .5 .5 .9"]
+    yield Case("irradiance on every material", LAMPS + SKY + board(passing, "void"), looks(len(passing), random, each=3), "-i -ab 0",
+               repeat=16)
     # What Radiance samples of ashik2's gloss it does not weight by the model.
     some = [material for material in MATERIALS if "ashik2" not in material]
     yield Case("gloss that counts as diffuse", LAMPS + SKY + board(some, "void"), looks(len(some), random, each=3), "-ab 0 -st .3 -av .3 .2 .1",
