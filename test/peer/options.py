@@ -70,6 +70,7 @@ SLAB = "!genbox clear slab 3 3 .3 | xform -t -1.5 -1.5 .6\n"
 CLEAR = {
     "a slab of glass": "void dielectric clear 0 0 5 .6 .8 .9 1.5 0\n" + SLAB,
     "a slab of glass with a pattern": PATTERNS["brightfunc"] + "\nP dielectric clear 0 0 5 .6 .8 .9 1.5 0\n" + SLAB,
+    "a slab of wavy glass": TEXTURES["texfunc"] + "\nP dielectric clear 0 0 5 .6 .8 .9 1.5 0\n" + SLAB,
     "water on glass": "void dielectric clear 0 0 5 .6 .8 .9 1.5 0\nvoid interface wet 0 0 8 .6 .8 .9 1.5 .9 .95 1 1.33\n"
     "void dielectric water 0 0 5 .9 .95 1 1.33 0\nclear ring bottom 0 0 8 0 0 .5 0 0 -1 0 2\nwet ring middle 0 0 8 0 0 .7 0 0 1 0 2\n"
     "water ring top 0 0 8 0 0 1 0 0 1 0 2\nclear cylinder low 0 0 7 0 0 .5 0 0 .7 2\nwater cylinder high 0 0 7 0 0 .7 0 0 1 2\n",
