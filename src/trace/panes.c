@@ -66,6 +66,7 @@ static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     case SCENE_NOTHING:
         return true;
     case SCENE_EMITTER:
+    case SCENE_PRISM:
     case SCENE_MIXTURE:
         break;
     }
