@@ -49,14 +49,28 @@ rgb panes_transmittance(const path_context *context, const geometry_ray *ray, do
     return transmittance;
 }
 
+/* Of the types that Radiance calls transparent, whatever they let through. */
 static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     if (hit->surface < 0)
         return false;
-    const scene_material *material = scene_material_at(scene, hit->surface);
-    if (material->kind != SCENE_REFLECTOR && material->kind != SCENE_ORIENTED)
-        return material->kind == SCENE_NOTHING;
-    graze_material_kind kind = material->reflector.kind;
-    return kind == GRAZE_TRANS || kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC;
+    const scene_material *m = scene_material_at(scene, hit->surface);
+    switch (m->kind) {
+    case SCENE_REFLECTOR:
+    case SCENE_ORIENTED:
+        return m->reflector.kind == GRAZE_TRANS || m->reflector.kind == GRAZE_GLASS ||
+               m->reflector.kind == GRAZE_DIELECTRIC;
+    case SCENE_FUNCTION:
+        return m->reflection->passes;
+    case SCENE_WGMD:
+        return m->wgmd->has[WGMD_THROUGH];
+    case SCENE_NOTHING:
+        return true;
+    case SCENE_EMITTER:
+    case SCENE_PRISM:
+    case SCENE_MIXTURE:
+        break;
+    }
+    return false;
 }
 
 path_hit panes_look_through(const path_context *context, const path_hit *first) {

@@ -104,8 +104,10 @@ def write_files(folder):
         file.write(f"2\n0 4 {side}\n0 4 {side}\n" + " ".join(str(b / 251) for b in pixels[: side * side]))
     with open(os.path.join(folder, "part.rad"), "w") as file:
         file.write("void plastic gray 0 0 5 .5 .5 .5 0 0\ngray sphere ball 0 0 4 0 0 0 .2\n")
-    subprocess.run([f"{rays.BIN}/gpict", "-x", "512", "-y", "512", "--samples", "1", "-o", os.path.join(folder, "picture.exr"),
-                    os.path.join(folder, "part.rad")], check=True, stderr=subprocess.DEVNULL)
+    with open(os.path.join(folder, "room.rad"), "w") as file:
+        file.write(ROOM)
+    seen = ["-x", "512", "-y", "512", "-vp", "2", ".2", "1.5", "--samples", "1", "-o", os.path.join(folder, "picture.exr")]
+    subprocess.run([f"{rays.BIN}/gpict", *seen, os.path.join(folder, "room.rad")], check=True, stderr=subprocess.DEVNULL)
     with open(os.path.join(folder, "part.obj"), "w") as file:
         file.write("v 0 0 0\nv .4 0 0\nv 0 .4 0\nv 0 0 .4\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n")
     for tool, source, target in (("oconv", "part.rad", "part.oct"), ("obj2mesh", "part.obj", "part.rtm")):

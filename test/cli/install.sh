@@ -88,7 +88,7 @@ for tool in "$BIN"/*; do
 done
 for page in "$root"/share/man/man?/*; do
     if grep -q '^\.so ' "$page"; then continue; fi
-    check "$(basename "$page") formats" bash -c 'w=$(groff -k -Tutf8 -ww -man -z "$0" 2>&1); echo "$w"; [ -z "$w" ]' "$page"
+    check "$(basename "$page") formats" bash -c 'w=$(groff -t -k -Tutf8 -ww -man -z "$0" 2>&1); echo "$w"; [ -z "$w" ]' "$page"
 done
 check "every function of the headers has its manual page" manual_complete
 check "manual pages by other names lead to pages that there are" manual_links

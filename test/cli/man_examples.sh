@@ -136,7 +136,7 @@ check_options() {
 }
 
 for page in man/man?/*.[0-9]; do
-    warnings=$(groff -k -Tutf8 -ww -man -z "$page" 2>&1)
+    warnings=$(groff -t -k -Tutf8 -ww -man -z "$page" 2>&1)
     if [ -z "$warnings" ]; then
         result ok "$page: formats without warnings"
     else

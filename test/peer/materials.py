@@ -136,7 +136,8 @@ def cases():
         yield Case(f"{kind} on every material", text + LAMPS + SKY + board(MATERIALS, "P"), looks(len(MATERIALS), random),
                    "-ab 0 -st 1", repeat=16, own_repeat=2048)
     for kind, text in MIXTURES.items():
-        yield Case(f"{kind} of materials", LAMPS + SKY + mixtures(text), looks(len(PAIRS), random), "-ab 0 -st 1", repeat=64)
+        yield Case(f"{kind} of materials", LAMPS + SKY + mixtures(text), looks(len(PAIRS), random), "-ab 0 -st 1", repeat=64,
+                   own_repeat=2048)
     yield Case("mixtures of mixtures", LAMPS + SKY + """
 void glass clear 0 0 3 .85 .7 .5
 void plastic solid 0 0 5 .7 .2 .1 .05 .2
@@ -148,7 +149,7 @@ void mixfunc one 4 clear painted .3 . 0 0
 void mixfunc two 4 shiny marked share*.9 modifiers.cal 0 0
 void mixfunc both 4 one two .4+.2*sin(Py) . 0 0
 both ring disk 0 0 8 0 0 0 0 0 1 0 2.5
-""", aim([0.3, -1, 5], grid([-1.5, -1.5, 0], [1.5, 1.5, 0], 64, random)), "-ab 0 -st 1", repeat=128)
+""", aim([0.3, -1, 5], grid([-1.5, -1.5, 0], [1.5, 1.5, 0], 64, random)), "-ab 0 -st 1", repeat=128, own_repeat=2048)
     under = sensors([-2.2, -2.2, 0], [2.2, 2.2, 0], 36, [0, 0, 1], random)
     for kind, text in PANES.items():
         yield Case(f"lit through {kind}", FLOOR + LAMP + text + PANE, under, "-I -ab 0", repeat=32)

@@ -45,7 +45,10 @@ def what_counts(random):
     tiles = LAMPS + SKY + board(MATERIALS, "void")
     yield Case("the ambient value on every material", tiles, looks(len(MATERIALS), random), "-ab 0 -st 1 -av .3 .2 .1", repeat=16,
                own_repeat=2048)
-    yield Case("irradiance on every material", tiles, looks(len(MATERIALS), random, each=3), "-i -ab 0", repeat=16)
+    passing = [*MATERIALS, "WGMDfunc M 13 void .1 .1 .1 void .5 .1 .1 void 1 .2 0 . 0 9 .5 .4 .3 .1 .2 .6 0 0 0",
+               "BRTDfunc M 10 0 0 0 .5 .5 .5 0 0 0 . 0 9 .5 .4 .3 .1 .2 .6 0 0 0", "transfunc M 2 lobe modifiers.cal 0 7 .6 .5 .4 .4 .5 .5 .9"]
+    yield Case("irradiance on every material", LAMPS + SKY + board(passing, "void"), looks(len(passing), random, each=3), "-i -ab 0",
+               repeat=16)
     # What Radiance samples of ashik2's gloss it does not weight by the model.
     some = [material for material in MATERIALS if "ashik2" not in material]
     yield Case("gloss that counts as diffuse", LAMPS + SKY + board(some, "void"), looks(len(some), random, each=3), "-ab 0 -st .3 -av .3 .2 .1",
@@ -67,6 +70,7 @@ SLAB = "!genbox clear slab 3 3 .3 | xform -t -1.5 -1.5 .6\n"
 CLEAR = {
     "a slab of glass": "void dielectric clear 0 0 5 .6 .8 .9 1.5 0\n" + SLAB,
     "a slab of glass with a pattern": PATTERNS["brightfunc"] + "\nP dielectric clear 0 0 5 .6 .8 .9 1.5 0\n" + SLAB,
+    "a slab of wavy glass": TEXTURES["texfunc"] + "\nP dielectric clear 0 0 5 .6 .8 .9 1.5 0\n" + SLAB,
     "water on glass": "void dielectric clear 0 0 5 .6 .8 .9 1.5 0\nvoid interface wet 0 0 8 .6 .8 .9 1.5 .9 .95 1 1.33\n"
     "void dielectric water 0 0 5 .9 .95 1 1.33 0\nclear ring bottom 0 0 8 0 0 .5 0 0 -1 0 2\nwet ring middle 0 0 8 0 0 .7 0 0 1 0 2\n"
     "water ring top 0 0 8 0 0 1 0 0 1 0 2\nclear cylinder low 0 0 7 0 0 .5 0 0 .7 2\nwater cylinder high 0 0 7 0 0 .7 0 0 1 2\n",
