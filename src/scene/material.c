@@ -1,4 +1,6 @@
 /* From primitives to the materials of a scene: what each does, with all that modifies it. */
+#include <string.h>
+
 #include "material/from_primitive.h"
 #include "scene/builder.h"
 #include "scene/emitter.h"
@@ -129,6 +131,19 @@ static graze_status read_prism(scene_builder *b, scene_material *material, const
                   : material_prism_compile(&material->prism, material_modifiers_library(b->scene->modifiers), p);
 }
 
+/* Light goes through, but where a body that is cut is closed by the first material listed. */
+static graze_status read_antimatter(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_NOTHING;
+    material->cuts = true;
+    material->modifiers = NULL;
+    if (!strcmp(p->strings[0], "void"))
+        return GRAZE_OK;
+    graze_status status = scene_read_alternate(b, p, &material->alternate);
+    if (status == GRAZE_OK && b->scene->materials[material->alternate].cuts)
+        return rad_primitive_error(b->report, p, "antimatter cannot be cut");
+    return status;
+}
+
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_WGMD;
     material->model = scene_choose_model(b->settings, p);
@@ -170,6 +185,8 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
         return read_function(b, material, p);
     if (material_is_prism(p->type))
         return read_prism(b, material, p);
+    if (p->type == RAD_ANTIMATTER)
+        return read_antimatter(b, material, p);
     if (p->type == RAD_WGMDFUNC)
         return read_wgmd(b, material, p);
     return read_reflector(b, material, p);

@@ -7,6 +7,7 @@
 #include "geometry/shaft.h"
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
+#include "scene/cuts.h"
 #include "scene/emitter.h"
 #include "scene/light_pattern.h"
 #include "scene/model_choice.h"
@@ -292,6 +293,8 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK)
         b.status = add_all(&b);
     if (b.status == GRAZE_OK)
+        b.status = scene_cuts_make(scene, threads_of(&b), report);
+    if (b.status == GRAZE_OK)
         b.status = light_patterns_prepare(scene, threads_of(&b), report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
@@ -310,6 +313,7 @@ void graze_scene_destroy(graze_scene *scene) {
     if (!scene)
         return;
     geometry_destroy(scene->geometry);
+    scene_cuts_destroy(scene->cuts);
     material_modifiers_destroy(scene->modifiers);
     for (size_t i = 0; i < scene->part_count; i++) {
         scene_part *part = &scene->parts[i];

@@ -136,6 +136,10 @@ def cases():
     yield Case("alternates of mirrors, seen", "alternates", np.vstack([aim(eye, grid([-2.8, 2, .1], [2.8, 2, 2], 64, odd)) for eye in [[.1, -2, 1], [.1, 4, 1]]]),
                "-ab 0", "-dr 1 -dp 0", repeat=64)
 
+    yield Case("antimatter, seen", "antimatter", np.vstack([aim(eye, grid([-2, -2.2, .01], [2, 1.2, .01], 144, odd) + [0, 0, .6] * (np.arange(144)[:, None] % 2))
+               for eye in [[.1, -4, 2], [-2, 1, 3]]]), "-ab 0", repeat=256)
+    yield Case("antimatter, irradiance", "antimatter", sensors([-2.8, -1, 0], [2.8, 1.9, 0], 144, up, odd), "-I -ab 0", repeat=256)
+
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]

@@ -72,6 +72,22 @@ static void alternates_of_mirrors_are_checked(void **state) {
                    "seen as l, which shines");
 }
 
+static void antimatter_is_checked(void **state) {
+    (void)state;
+    assert_refused("void antimatter i 0 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: antimatter i", "string");
+    assert_refused("void antimatter i 1 a 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i", "no modifier 'a' before");
+    assert_refused(
+        "void light l 0 0 3 1 1 1 void antimatter i 2 void l 0 0 i sphere s 0 0 4 0 0 0 1 l sphere t 0 0 4 3 "
+        "0 0 1\n",
+        "antimatter i", "cuts l, which shines");
+    assert_refused("void antimatter j 1 void 0 0 void antimatter i 1 j 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i",
+                   "cannot be cut");
+    graze_scene *scene = scene_from_text("void antimatter i 2 void no 0 0 i sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_non_null(strstr(messages, "antimatter i: there is no modifier 'no' before it, which it could cut"));
+    graze_scene_destroy(scene);
+}
+
 static void all_mistakes_are_told_at_once(void **state) {
     (void)state;
     const char *text =
@@ -209,6 +225,7 @@ int main(void) {
         cmocka_unit_test(illums_are_checked),
         cmocka_unit_test(prisms_are_checked),
         cmocka_unit_test(alternates_of_mirrors_are_checked),
+        cmocka_unit_test(antimatter_is_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),
