@@ -29,8 +29,9 @@ static int seen_light(scene_builder *b, int material, const shape *s, const rad_
 static scene_surface make_surface(scene_builder *b, int primitive, int material, const shape *s,
                                   const rad_primitive *user) {
     const graze_scene *scene = b->scene;
-    if (scene->materials[material].cuts)
-        scene_fail(b, rad_primitive_error(b->report, user, "antimatter in an instance or a mesh is not supported"));
+    if (scene->materials[material].cuts || scene->materials[material].mist >= 0)
+        scene_fail(
+            b, rad_primitive_error(b->report, user, "mist or antimatter in an instance or a mesh is not supported"));
     return (scene_surface){
         .primitive = primitive,
         .material = material,

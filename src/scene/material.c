@@ -1,9 +1,11 @@
 /* From primitives to the materials of a scene: what each does, with all that modifies it. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "material/from_primitive.h"
 #include "scene/builder.h"
 #include "scene/emitter.h"
+#include "scene/mist.h"
 #include "scene/model_choice.h"
 
 /* A failure that is told once, where the material is first used. */
@@ -144,6 +146,23 @@ static graze_status read_antimatter(scene_builder *b, scene_material *material, 
     return status;
 }
 
+static graze_status read_mist(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    graze_scene *scene = b->scene;
+    material->kind = SCENE_NOTHING;
+    if (material->modifiers)
+        return rad_primitive_error(b->report, p, "patterns on mist are not supported");
+    if (!scene->mist)
+        scene->mist = calloc(1, sizeof *scene->mist);
+    if (!scene->mist)
+        return report_out_of_memory(b->report);
+    if (scene->mist->count == MIST_MOST)
+        return rad_primitive_error(b->report, p, "it is more than the %d-th mist", MIST_MOST);
+    graze_status status = scene_mist_read(&scene->mist->of[scene->mist->count], p, b->report);
+    if (status == GRAZE_OK)
+        material->mist = scene->mist->count++;
+    return status;
+}
+
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_WGMD;
     material->model = scene_choose_model(b->settings, p);
@@ -185,6 +204,8 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
         return read_function(b, material, p);
     if (material_is_prism(p->type))
         return read_prism(b, material, p);
+    if (p->type == RAD_MIST)
+        return read_mist(b, material, p);
     if (p->type == RAD_ANTIMATTER)
         return read_antimatter(b, material, p);
     if (p->type == RAD_WGMDFUNC)
@@ -195,7 +216,7 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
 static int add_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain;
-    scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1};
+    scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1, .mist = -1};
     graze_status status = find_chain(b, modifier, &chain);
     if (!status) {
         made.primitive = chain.material;

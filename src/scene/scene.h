@@ -66,6 +66,7 @@ typedef struct scene_material {
     scene_material_kind kind;
     int primitive;    /* the material, or the mixture, in the description */
     int alternate;    /* index into materials of what it is seen as; -1: as itself */
+    int mist;         /* index into scene->mist: its surfaces bound that, and are no surfaces; -1: no mist */
     bool cuts;        /* antimatter: SCENE_NOTHING, its alternate what it closes bodies with, if with anything */
     bool keeps_front; /* with an alternate: the front of a mirror, which paths meet as that once they are scattered */
     const material_modifier *modifiers; /* patterns and textures, or null */
@@ -136,6 +137,7 @@ struct graze_scene {
     size_t mirror_count;
     bool has_panes;          /* surfaces that light goes straight through */
     bool has_refraction;     /* dielectrics, prisms */
+    struct scene_mist *mist; /* (scene/mist.h) null: none */
     struct scene_cuts *cuts; /* by antimatter (scene/cuts.h); null: none */
     bool has_secondary;      /* lights of the material illum */
     scene_light *lights;     /* the shapes first, then the sources; and behind these, what is only seen */
