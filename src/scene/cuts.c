@@ -16,10 +16,8 @@ struct scene_cuts {
     int materials[MOST]; /* of each its material */
     uint64_t *cut_by;    /* by surface: the antimatters that cut it */
     int8_t *antimatter;  /* by surface: which one it bounds, or -1 */
-    shape *bounds;       /* their surfaces, and which each is of */
-    int8_t *bounds_of;
-    size_t bound_count;
-    geometry *geometry; /* of the bounds */
+    shape *bounds;       /* their surfaces, those of each behind one another */
+    geometry *of[MOST];  /* of the bounds of each: those of two may coincide */
 };
 
 static uint64_t bit(int antimatter) {
@@ -67,19 +65,20 @@ static void leave_mirrors_out(graze_scene *scene) {
     scene->mirror_count = kept;
 }
 
-static void find_bounds(graze_scene *scene) {
+/* Builds the bounds of one antimatter; gives how many there are. */
+static graze_status build_bounds(graze_scene *scene, int antimatter, shape *bounds, size_t *count, int threads,
+                                 const graze_report *report) {
     scene_cuts *cuts = scene->cuts;
+    *count = 0;
     for (size_t k = 0; k < scene->surface_count; k++) {
-        cuts->antimatter[k] = -1;
-        for (int i = 0; i < cuts->count; i++)
-            if (scene->surfaces[k].material == cuts->materials[i])
-                cuts->antimatter[k] = (int8_t)i;
-        if (cuts->antimatter[k] < 0)
+        if (scene->surfaces[k].material != cuts->materials[antimatter])
             continue;
         scene->shapes[k].passes = true;
-        cuts->bounds_of[cuts->bound_count] = cuts->antimatter[k];
-        cuts->bounds[cuts->bound_count++] = scene->shapes[k];
+        cuts->antimatter[k] = (int8_t)antimatter;
+        bounds[(*count)++] = scene->shapes[k];
     }
+    const geometry_group group = {.shapes = bounds, .shape_count = *count};
+    return geometry_build(&cuts->of[antimatter], &group, 1, threads, report);
 }
 
 graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report *report) {
@@ -102,29 +101,30 @@ graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report
     cuts->cut_by = calloc(scene->surface_count + 1, sizeof *cuts->cut_by);
     cuts->antimatter = calloc(scene->surface_count + 1, sizeof *cuts->antimatter);
     cuts->bounds = calloc(scene->surface_count + 1, sizeof *cuts->bounds);
-    cuts->bounds_of = calloc(scene->surface_count + 1, sizeof *cuts->bounds_of);
-    if (!cuts->cut_by || !cuts->antimatter || !cuts->bounds || !cuts->bounds_of)
+    if (!cuts->cut_by || !cuts->antimatter || !cuts->bounds)
         return report_out_of_memory(report);
     scene->has_panes = true;
-    find_bounds(scene);
+    memset(cuts->antimatter, -1, scene->surface_count);
     graze_status status = GRAZE_OK;
-    for (int i = 0; i < count && status == GRAZE_OK; i++)
-        status = note_cut(scene, i, report);
-    if (status != GRAZE_OK)
-        return status;
+    shape *bounds = cuts->bounds;
+    size_t built;
+    for (int i = 0; i < count && status == GRAZE_OK; i++, bounds += built) {
+        status = build_bounds(scene, i, bounds, &built, threads, report);
+        if (status == GRAZE_OK)
+            status = note_cut(scene, i, report);
+    }
     leave_mirrors_out(scene);
-    const geometry_group group = {.shapes = cuts->bounds, .shape_count = cuts->bound_count};
-    return geometry_build(&cuts->geometry, &group, 1, threads, report);
+    return status;
 }
 
 void scene_cuts_destroy(scene_cuts *cuts) {
     if (!cuts)
         return;
-    geometry_destroy(cuts->geometry);
+    for (int i = 0; i < cuts->count; i++)
+        geometry_destroy(cuts->of[i]);
     free(cuts->cut_by);
     free(cuts->antimatter);
     free(cuts->bounds);
-    free(cuts->bounds_of);
     free(cuts);
 }
 
@@ -137,20 +137,18 @@ static bool next_hit(const geometry *g, geometry_ray *ray, geometry_hit *hit) {
     return true;
 }
 
-/* The antimatters of `asked` that a point is inside of. */
-static uint64_t inside_of(const scene_cuts *cuts, uint64_t asked, vec3 point, vec3 direction) {
-    geometry_ray ray = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
-    geometry_hit hit;
-    int balance[MOST] = {0};
-    uint64_t inside = 0;
-    while (asked && next_hit(cuts->geometry, &ray, &hit)) {
-        int antimatter = cuts->bounds_of[hit.surface];
-        balance[antimatter] += vec3_dot(hit.normal, direction) > 0 ? 1 : -1;
+/* Whether a point is inside of any of the antimatters asked for. */
+static bool is_inside(const scene_cuts *cuts, uint64_t asked, vec3 point, vec3 direction) {
+    for (int i = 0; i < cuts->count; i++) {
+        geometry_ray ray = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
+        geometry_hit hit;
+        int balance = 0;
+        while ((asked & bit(i)) && next_hit(cuts->of[i], &ray, &hit))
+            balance += vec3_dot(hit.normal, direction) > 0 ? 1 : -1;
+        if (balance > 0)
+            return true;
     }
-    for (int i = 0; i < cuts->count && asked; i++)
-        if (balance[i] > 0)
-            inside |= bit(i);
-    return inside & asked;
+    return false;
 }
 
 /* Whether a point of an antimatter's boundary is inside of a body that it cuts, and that no other one has cut out
@@ -171,7 +169,7 @@ static bool is_face(const graze_scene *scene, int antimatter, int64_t surface, v
             others = cuts->cut_by[hit.surface] & ~bit(antimatter);
         }
     }
-    return balance > 0 && !inside_of(cuts, others, point, direction);
+    return balance > 0 && !is_inside(cuts, others, point, direction);
 }
 
 scene_presence scene_cuts_at(const graze_scene *scene, int64_t surface, vec3 point, vec3 direction) {
@@ -181,7 +179,7 @@ scene_presence scene_cuts_at(const graze_scene *scene, int64_t surface, vec3 poi
     int antimatter = cuts->antimatter[surface];
     const vec3 back = vec3_negate(direction);
     if (antimatter < 0)
-        return inside_of(cuts, cuts->cut_by[surface], point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
+        return is_inside(cuts, cuts->cut_by[surface], point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
     bool closes = scene->materials[cuts->materials[antimatter]].alternate >= 0;
     return closes && is_face(scene, antimatter, surface, point, back) ? SCENE_CUT_FACE : SCENE_CUT_AWAY;
 }

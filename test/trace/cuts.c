@@ -53,6 +53,10 @@ static void bodies_are_cut(void **state) {
     /* Another body is not cut, nor is there a face outside of all. */
     assert_met("void antimatter a 1 q 0 0 a sphere s 0 0 4 0 -1 0 .5", 0, 4, "ball", -1);
     assert_met("void antimatter a 1 p 0 0 a sphere s 0 0 4 0 -3 0 .5", 0, 4, "ball", -1);
+    /* Two that abut. */
+    assert_met("void antimatter a 2 void p 0 0 a ring e 0 0 8 0 -2 0 0 -1 0 0 .5 a ring f 0 0 8 0 0 0 0 1 0 0 .5 "
+               "void antimatter b 2 void p 0 0 b ring g 0 0 8 0 0 0 0 -1 0 0 .5 b ring h 0 0 8 0 2 0 0 1 0 0 .5",
+               0, 8, "wall", -1);
     /* Where two overlap, the farther one closes the body. */
     assert_met(
         "void antimatter a 1 p 0 0 a sphere s 0 0 4 0 -1 0 .5 void antimatter b 1 p 0 0 b sphere t 0 0 4 0 -.4 0 .3", 0,
