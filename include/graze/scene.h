@@ -38,7 +38,8 @@ typedef struct graze_scene_settings {
     const char *const *ambient_modifiers; /* names of modifiers of surfaces */
     size_t ambient_modifier_count;
     int ambient_modifiers_included;       /* 0: on surfaces with one of these modifiers diffuse interreflection is not
-                                             computed: the ambient value stands for it. Else: on all others */
+                                             computed: the ambient value stands for it. Else: on all others (with no
+                                       modifier: on all) */
     const graze_definitions *definitions; /* read first, in order, and seen by all of the scene's functions: a name's
                                              later definition wins, but that of a function file itself over these */
     size_t definition_count;

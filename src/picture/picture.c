@@ -72,22 +72,23 @@ static bool cast_sample(pixel *p, const path_context *context, sampler *points, 
     return true;
 }
 
-static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck) {
+static void sample_pixel(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     pixel *p = user;
     path_context context = {
         .scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory, .cache = p->picture->cache};
     camera_sample at = camera_center;
     path_indirect known;
     *luck = ESTIMATE_EXACT;
-    if (!cast_sample(p, &context, points, &at, luck))
-        return (path_sample){.noisy = false};
+    if (!cast_sample(p, &context, points, &at, luck)) {
+        *sample = (path_sample){.noisy = false};
+        return;
+    }
     if (p->shared && shared_light_at(p->picture->shared, p->shared, &p->first, at.x - camera_center.x,
                                      at.y - camera_center.y, &known))
         context.indirect = &known;
-    path_sample sample = path_radiance(&context, &p->first, points);
-    if (sample.noisy)
-        *luck = sample.searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
-    return sample;
+    path_radiance(&context, &p->first, points, sample);
+    if (sample->noisy)
+        *luck = sample->searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
 }
 
 /* Random numbers of pictures, and of surveys. */

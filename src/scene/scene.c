@@ -86,7 +86,7 @@ static void note_mirror(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
     const scene_material *m = &scene->materials[scene->surfaces[index].material];
     shape_kind kind = scene->shapes[index].kind;
-    if (m->kind != SCENE_REFLECTOR || m->modifiers || m->reflector.kind != GRAZE_MIRROR ||
+    if (m->kind != SCENE_REFLECTOR || material_modifiers_lean(m->modifiers) || m->reflector.kind != GRAZE_MIRROR ||
         (kind != SHAPE_POLYGON && kind != SHAPE_RING))
         return;
     int *grown = realloc(scene->mirrors, (scene->mirror_count + 1) * sizeof *grown);

@@ -97,7 +97,7 @@ typedef struct scene_surface {
     int material;    /* index into materials */
     int light;       /* index into lights, or -1 */
     bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;    /* flat, of the material `mirror`, not patterned; to paths, not only to light samples */
+    bool mirrors;    /* flat, of the material `mirror`, without textures; to paths, not only to light samples */
 } scene_surface;
 
 /* An instance or a mesh in a part. */

@@ -13,7 +13,7 @@
 #include "tools/gtrace/features.h"
 
 #define RAY_FIELDS 6
-#define CHUNK_RAYS 512
+#define CHUNK_RAYS 2048
 /* Entries of the option table that are gtrace's own. */
 #define GTRACE_OPTION_COUNT 13
 

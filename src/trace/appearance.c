@@ -55,12 +55,18 @@ static void bend(const path *p, const path_hit *hit, const graze_material *m, ve
     }
 }
 
+static rgb transmissivity(rgb color, rgb pattern) {
+    rgb c = encounter_colored(color, pattern);
+    return (rgb){fmin(c.r, 1), fmin(c.g, 1), fmin(c.b, 1)};
+}
+
 /* Of panes, what they transmit is multiplied by the pattern; of dielectrics, what a unit of length does. */
 static graze_material patterned(const graze_material *m, rgb pattern) {
     graze_material patterned = *m;
     if (m->kind == GRAZE_DIELECTRIC) {
-        rgb inside = encounter_colored(m->inside, pattern);
-        patterned.inside = (rgb){fmin(inside.r, 1), fmin(inside.g, 1), fmin(inside.b, 1)};
+        patterned.inside = transmissivity(m->inside, pattern);
+        if (rgb_min(m->outside) < 1)
+            patterned.outside = transmissivity(m->outside, pattern);
     } else if (m->kind != GRAZE_GLASS) {
         patterned.color = encounter_colored(m->color, pattern);
     }
@@ -262,6 +268,12 @@ vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double len
 vec3 appearance_smooth_normal(const graze_scene *scene, const path_hit *hit) {
     const encounter of = encounter_meet(scene, hit, 0);
     return encounter_lean(hit, &of, &of.effect);
+}
+
+graze_material appearance_reflector(const graze_scene *scene, const scene_material *m, const path_hit *hit,
+                                    double length) {
+    const encounter of = encounter_meet(scene, hit, length);
+    return patterned(&m->reflector, encounter_add_effect(m->modifiers, &of.ray, of.effect).color);
 }
 
 static rgb through_reflector(const scene_material *m, const path_hit *hit, const encounter *of,

@@ -29,6 +29,9 @@ vec3 appearance_normal(const graze_scene *, const path_hit *, double length);
 /* The same without textures: the surface's own, or in a mesh what its corners say. */
 vec3 appearance_smooth_normal(const graze_scene *, const path_hit *);
 
+/* The reflector of a material that has one (SCENE_REFLECTOR, SCENE_ORIENTED) with its patterns at a hit. */
+graze_material appearance_reflector(const graze_scene *, const scene_material *, const path_hit *, double length);
+
 /* What a surface with modifiers lets straight through of the ray that meets it, `length` from the eye to its origin. */
 rgb appearance_straight_through(const graze_scene *, const scene_material *, const path_hit *, double length);
 

@@ -1,6 +1,8 @@
 /* Between rays and hits of the public header and those of paths. */
 #include "trace/describe.h"
 
+#include <float.h>
+
 #include "scene/surface.h"
 #include "trace/appearance.h"
 
@@ -43,8 +45,13 @@ static bool is_finite(vec3 v) {
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
+/* As well as rounded numbers can be. */
+static bool is_unit(vec3 v) {
+    return fabs(vec3_dot(v, v) - 1) <= 4 * DBL_EPSILON;
+}
+
 bool describe_ray(const graze_ray *ray, vec3 *direction, double *limit) {
-    *direction = vec3_safe_normalize(ray->direction);
+    *direction = is_unit(ray->direction) ? ray->direction : vec3_safe_normalize(ray->direction);
     *limit = ray->limit > 0 ? ray->limit : GEOMETRY_FAR;
     return is_finite(ray->origin) && is_finite(ray->direction) && vec3_max_abs(*direction) > 0 && isfinite(ray->limit);
 }

@@ -2,6 +2,7 @@
 #include "trace/mirrored_light.h"
 
 #include "geometry/crossing.h"
+#include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/mist.h"
 #include "trace/observer.h"
@@ -104,6 +105,21 @@ static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror
     return rgb_multiply(before, behind);
 }
 
+/* What the mirror reflects, where it shows the light. */
+static rgb color_of(const path *p, const vertex *v, int mirror, double to_mirror, vec3 direction) {
+    const graze_scene *scene = p->context->scene;
+    const scene_material *material = &scene->materials[scene->surfaces[mirror].material];
+    if (!material->modifiers)
+        return material->reflector.color;
+    const path_hit hit = {.surface = mirror,
+                          .light = -1,
+                          .distance = to_mirror,
+                          .point = vec3_add_scaled(v->point, to_mirror, direction),
+                          .normal = plane_of(&scene->shapes[mirror]).normal,
+                          .direction = direction};
+    return appearance_reflector(scene, material, &hit, p->length).color;
+}
+
 static void add_from(path *p, const vertex *v, int mirror, double expectation, const double random[3],
                      const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
@@ -134,7 +150,7 @@ static void add_from(path *p, const vertex *v, int mirror, double expectation, c
     rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, rivals), sample.radiance);
     if (rgb_is_black(reflected))
         return;
-    rgb color = scene->materials[scene->surfaces[mirror].material].reflector.color;
+    rgb color = color_of(p, v, mirror, to_mirror, sample.direction);
     rgb found = rgb_multiply(rgb_multiply(arriving(p, v, mirror, to_mirror, &sample, onward), color), reflected);
     found = rgb_scale(cosine / density, rgb_multiply(p->throughput, found));
     p->radiance = rgb_add(p->radiance, found);

@@ -58,9 +58,10 @@ static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     if (hit->surface < 0)
         return false;
     const scene_material *material = scene_material_at(scene, hit->surface);
-    if (material->kind != SCENE_REFLECTOR)
+    if (material->kind != SCENE_REFLECTOR && material->kind != SCENE_ORIENTED)
         return material->kind == SCENE_NOTHING;
-    return material->reflector.kind == GRAZE_GLASS || material->reflector.kind == GRAZE_DIELECTRIC;
+    graze_material_kind kind = material->reflector.kind;
+    return kind == GRAZE_TRANS || kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC;
 }
 
 path_hit panes_look_through(const path_context *context, const path_hit *first) {

@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "scene/surface.h"
+#include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/emission.h"
 #include "trace/irradiance_cache.h"
@@ -85,6 +86,14 @@ static void take_indirect(path *p, const vertex *v) {
     p->indirect_error = error;
 }
 
+/* Of patterns on clear bodies counts what they are where light leaves, as in Radiance. */
+static rgb medium_at(const path *p, const path_hit *hit, const scene_material *m) {
+    if (!m->modifiers)
+        return graze_material_attenuation(&m->reflector, hit->behind, 1);
+    const graze_material patterned = appearance_reflector(p->context->scene, m, hit, p->length);
+    return graze_material_attenuation(&patterned, hit->behind, 1);
+}
+
 /* What the way to a hit through a clear body leaves of the light; and of which body. */
 static void attenuate(path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
@@ -93,7 +102,7 @@ static void attenuate(path *p, const path_hit *hit) {
     const scene_material *material = scene_material_at(scene, hit->surface);
     /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
     if (scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
-        p->medium = graze_material_attenuation(&material->reflector, hit->behind, 1);
+        p->medium = medium_at(p, hit, material);
     if (rgb_min(p->medium) == 1)
         return;
     rgb left = {pow(p->medium.r, hit->distance), pow(p->medium.g, hit->distance), pow(p->medium.b, hit->distance)};
@@ -219,24 +228,22 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->rare = (path_rare){0, 0, 0, 0};
 }
 
-static path_sample path_end(const path *p) {
-    path_sample sample;
-    sample.radiance = p->radiance;
-    sample.cached = p->cached;
-    sample.known_error = p->indirect_known ? p->indirect_error : rgb_gray(0);
+static void path_end(const path *p, path_sample *sample) {
+    sample->radiance = p->radiance;
+    sample->cached = p->cached;
+    sample->known_error = p->indirect_known ? p->indirect_error : rgb_gray(0);
     for (int i = 0; i < IRRADIANCE_PARTS && p->cached; i++)
-        sample.told[i] = p->told[i];
-    sample.control_count = p->control_count;
-    sample.rare = p->rare;
-    sample.noisy = p->sampler->group != p->first_group;
-    sample.searching = p->searching;
-    sample.integrated = p->integrated;
+        sample->told[i] = p->told[i];
+    sample->control_count = p->control_count;
+    sample->rare = p->rare;
+    sample->noisy = p->sampler->group != p->first_group;
+    sample->searching = p->searching;
+    sample->integrated = p->integrated;
     rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
-    sample.indirect = rgb_add(later, p->indirect_light);
-    sample.albedo = p->albedo;
+    sample->indirect = rgb_add(later, p->indirect_light);
+    sample->albedo = p->albedo;
     for (int i = 0; i < p->control_count; i++)
-        sample.controls[i] = p->controls[i];
-    return sample;
+        sample->controls[i] = p->controls[i];
 }
 
 /* Where a path begins: in the memory, if others begin there, too. */
@@ -256,7 +263,7 @@ static void follow_first(path *p, const path_hit *first) {
         p->radiance = rgb_gray(0);
 }
 
-path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
+void path_radiance(const path_context *context, const path_hit *first, sampler *points, path_sample *sample) {
     path p;
     path_start(&p, context, points);
     gathering own, *here = begin_at(context, &own);
@@ -280,11 +287,11 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
             p.albedo = rgb_add(p.albedo, rgb_add(v->shading.transmitted_diffuse, v->shading.transmitted_specular));
         follow(&p, here);
     }
-    return path_end(&p);
+    path_end(&p, sample);
 }
 
 /* A path that begins at a vertex, as if it had been reflected diffusely that often. */
-static path_sample path_from(const path_context *context, sampler *points, vertex v, int ambient_depth) {
+static void path_from(const path_context *context, sampler *points, vertex v, int ambient_depth, path_sample *sample) {
     path p;
     path_start(&p, context, points);
     p.ambient_depth = ambient_depth;
@@ -292,15 +299,16 @@ static path_sample path_from(const path_context *context, sampler *points, verte
     gathering own, *here = begin_at(context, &own);
     here->vertex = v;
     follow(&p, here);
-    return path_end(&p);
+    path_end(&p, sample);
 }
 
-path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
-    return path_from(context, points, vertex_of_sensor(point, normal), 0);
+void path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points, path_sample *sample) {
+    path_from(context, points, vertex_of_sensor(point, normal), 0, sample);
 }
 
-path_sample path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points) {
-    return path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1);
+void path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points,
+                        path_sample *sample) {
+    path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1, sample);
 }
 
 bool path_asks_indirect(const path_context *context, const path_hit *first, irradiance_record *record) {
@@ -313,12 +321,13 @@ bool path_asks_indirect(const path_context *context, const path_hit *first, irra
     return true;
 }
 
-path_sample path_indirect_at(const path_context *context, const irradiance_record *record, sampler *points) {
+void path_indirect_at(const path_context *context, const irradiance_record *record, sampler *points,
+                      path_sample *sample) {
     path p;
     path_start(&p, context, points);
     p.gathering = true;
     gathering own, *here = begin_at(context, &own);
     here->vertex = vertex_of_point(record->point, record->normal, record->surface);
     follow(&p, here);
-    return path_end(&p);
+    path_end(&p, sample);
 }

@@ -71,15 +71,13 @@ typedef struct request {
     vec3 origin, direction;
 } request;
 
-static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) {
+static void sample_ray(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     const request *r = user;
-    path_sample sample;
     if (r->context.settings->quantity == GRAZE_IRRADIANCE)
-        sample = path_irradiance(&r->context, r->origin, r->direction, points);
+        path_irradiance(&r->context, r->origin, r->direction, points, sample);
     else
-        sample = path_radiance(&r->context, &r->first, points);
-    *luck = sample.searching ? ESTIMATE_SEARCH : sample.noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
-    return sample;
+        path_radiance(&r->context, &r->first, points, sample);
+    *luck = sample->searching ? ESTIMATE_SEARCH : sample->noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
 }
 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,

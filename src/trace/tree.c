@@ -85,8 +85,11 @@ static graze_status tell_paths(telling *t, path_context context, const path_hit 
     for (uint32_t i = 0; i < paths && !r.failed; i++) {
         sampler points = sampler_start(key, i);
         r.count = 0;
-        path_sample sample = sensor ? path_irradiance(&context, root->origin, root->direction, &points)
-                                    : path_radiance(&context, first, &points);
+        path_sample sample;
+        if (sensor)
+            path_irradiance(&context, root->origin, root->direction, &points, &sample);
+        else
+            path_radiance(&context, first, &points, &sample);
         tell_path(t, &r);
         root->radiance = rgb_add_scaled(root->radiance, t->share, sample.radiance);
         root->mirrored = rgb_add_scaled(root->mirrored, t->share, t->mirrored);

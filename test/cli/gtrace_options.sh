@@ -109,7 +109,11 @@ result $? "a modifier that is not there gets a warning"
 fails "some left out and some alone" 1 "not both" "" "$gtrace" -ae dull -ai shiny room.rad
 fails "a file that is not there" 1 "nowhere" "" "$gtrace" -aE nowhere room.rad
 : >empty
-fails "a file without names" 1 "empty" "" "$gtrace" -aI empty room.rad
+check "a file without names excludes nothing" test "$(ambient -aE empty 2>err)" = "$(ambient)"
+check "... with a warning" grep -q "warning: empty: no modifier" err
+check "... and includes nothing" test "$(ambient -aI empty 2>err)" = "$left_out"
+check "... which -defaults knows" test "$("$gtrace" -aI empty -te x -defaults 2>err | grep '^-[at][eEiI]' | cut -f 1 | tr '\n' ' ')" = "-te x -aI /dev/null "
+fails "... and not with others" 1 "not both" "" "$gtrace" -aI empty -ae dull room.rad
 fails "-ae without a name" 1 "'-ae'" "" "$gtrace" -ae
 
 # Colors.

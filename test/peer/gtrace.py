@@ -25,6 +25,11 @@ def cases():
     yield Case("sun and sky, irradiance", "sky",
                np.vstack([floor[::2], sensors([-2, 1, 0.1], [2, 1, 1.4], 36, [0, -1, 0], random)]),
                "-I -ab 1", "-ad 2048", repeat=64, samples=16384)
+    yield Case("sources that overlap, irradiance", "suns",
+               np.vstack([floor[1::2], sensors([-2, 1, 0.1], [2, 1, 1.4], 36, [0, -1, 0], np.random.default_rng(20100404))]),
+               "-I -ab 1", "-ad 2048", repeat=64, samples=16384)
+    yield Case("sources that overlap, seen", "suns", aim([0, 0, 1], [[0.3, -0.2, 1.8], [0.316, -0.2, 1.8], [0.4, 0, 1.8], [-1, 0, 1.8]]),
+               "-ab 0", repeat=64)
     yield Case("spotlights, irradiance", "spot", sensors([-2, -1, 0], [2, 1, 0], 144, up, random), "-I -ab 0", repeat=256)
 
     ball = normalized(random.normal(size=(150, 3))) * [1, 1, 1] + [0, 0, 1]

@@ -130,11 +130,11 @@ def cases():
     random = np.random.default_rng(20261122)
     for kind, text in PATTERNS.items():
         yield Case(f"{kind} on every material", text + LAMPS + SKY + board(MATERIALS, "P"), looks(len(MATERIALS), random),
-                   "-ab 0 -st 1", repeat=16, own_repeat=512, samples=1024)
+                   "-ab 0 -st 1", repeat=16, own_repeat=2048)
         yield Case(f"{kind} on every light", text + "\n" + board(LIGHTS, "P"), looks(len(LIGHTS), random, each=16), "-ab 0", repeat=8)
     for kind, text in TEXTURES.items():
         yield Case(f"{kind} on every material", text + LAMPS + SKY + board(MATERIALS, "P"), looks(len(MATERIALS), random),
-                   "-ab 0 -st 1", repeat=16, own_repeat=512, samples=1024)
+                   "-ab 0 -st 1", repeat=16, own_repeat=2048)
     for kind, text in MIXTURES.items():
         yield Case(f"{kind} of materials", LAMPS + SKY + mixtures(text), looks(len(PAIRS), random), "-ab 0 -st 1", repeat=64)
     yield Case("mixtures of mixtures", LAMPS + SKY + """
@@ -153,7 +153,7 @@ both ring disk 0 0 8 0 0 0 0 0 1 0 2.5
     for kind, text in PANES.items():
         yield Case(f"lit through {kind}", FLOOR + LAMP + text + PANE, under, "-I -ab 0", repeat=32)
         yield Case(f"the floor through {kind}", FLOOR + LAMP + text + PANE, aim([0.4, -2, 3], under[:, :3]), "-ab 0",
-                   repeat=64, own_repeat=2048)
+                   repeat=64, own_repeat=8192, samples=16384)
 
 
 if __name__ == "__main__":

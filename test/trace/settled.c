@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "base/angle.h"
 #include "base/vector.h"
 #include "graze/trace.h"
 #include "support/scene_text.h"
@@ -48,6 +49,20 @@ static void assert_exact(const char *text, int bounces) {
         if (fabs(answer.value.g - other.value.g) > 4 * other.standard_error.g)
             fail_msg("%g, but %g +- %g", answer.value.g, other.value.g, other.standard_error.g);
     }
+    graze_scene_destroy(scene);
+}
+
+static void nothing_but_suns(void **state) {
+    (void)state;
+    graze_scene *scene =
+        load("void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 far source other 0 0 4 0 0 1 9\n");
+    graze_trace_settings s = graze_trace_defaults();
+    graze_answer answer;
+    s.quantity = GRAZE_IRRADIANCE;
+    graze_trace(scene, &s, &(graze_ray){.direction = {0, 0, 1}}, 1, &answer, NULL);
+    double truth = 9 * PI * (pow(sin(angle_radians(2.5)), 2) * sqrt(0.5) + pow(sin(angle_radians(4.5)), 2));
+    assert_int_equal(answer.samples, 1);
+    assert_true(fabs(answer.value.g - truth) < 1e-9 * truth && answer.standard_error.g < 2e-8 * truth);
     graze_scene_destroy(scene);
 }
 
@@ -156,8 +171,8 @@ static void as_without(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_but_a_lamp), cmocka_unit_test(something_black), cmocka_unit_test(hidden_lamp),
-        cmocka_unit_test(not_settled),        cmocka_unit_test(as_without),
+        cmocka_unit_test(nothing_but_suns), cmocka_unit_test(nothing_but_a_lamp), cmocka_unit_test(something_black),
+        cmocka_unit_test(hidden_lamp),      cmocka_unit_test(not_settled),        cmocka_unit_test(as_without),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
