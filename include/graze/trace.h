@@ -43,6 +43,10 @@ typedef struct graze_trace_settings {
     graze_strategy strategy;
     int ambient_bounces;       /* -ab: diffuse interreflections followed, >= 0 */
     graze_rgb ambient_value;   /* -av: radiance that stands for all diffuse light beyond; 0 .. 1e100 */
+    graze_rgb mist_extinction; /* -me: of mist everywhere, per unit of length; 0 .. 1e100 */
+    graze_rgb mist_albedo;     /* -ma: of mist that says none: the part of the extinction that is scattered, 0 .. 1 */
+    double mist_eccentricity;  /* -mg: the same of Henyey and Greenstein's phase function, -1 .. 1, exclusively; 0 or
+                                  below: all directions alike */
     int back_faces_visible;    /* -bv: 0: opaque surfaces seen from behind are not there (but cast shadows) */
     int lights_visible;        /* -dv: 0: lights nearer than a glow's radius are black to the eye and in mirrors */
     int reflection_limit;      /* -lr: > 0: no more reflections than this before a light; 0: roulette; < 0: both */

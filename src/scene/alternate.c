@@ -15,7 +15,8 @@ int scene_nothing(scene_builder *b) {
     graze_scene *scene = b->scene;
     if (b->nothing < 0) {
         b->nothing = (int)scene->material_count++;
-        scene->materials[b->nothing] = (scene_material){.kind = SCENE_NOTHING, .primitive = RAD_VOID, .alternate = -1};
+        scene->materials[b->nothing] =
+            (scene_material){.kind = SCENE_NOTHING, .primitive = RAD_VOID, .alternate = -1, .mist = -1};
     }
     return b->nothing;
 }

@@ -41,6 +41,9 @@ static scene_surface make_surface(scene_builder *b, int primitive, int material,
                                   const rad_primitive *user) {
     const graze_scene *scene = b->scene;
     const int shining = scene_material_shining(scene, material);
+    if (scene->materials[material].cuts || scene->materials[material].mist >= 0)
+        scene_fail(
+            b, rad_primitive_error(b->report, user, "mist or antimatter in an instance or a mesh is not supported"));
     return (scene_surface){
         .primitive = primitive,
         .material = material,

@@ -1,7 +1,11 @@
 /* From primitives to the materials of a scene: what each does, with all that modifies it. */
+#include <stdlib.h>
+#include <string.h>
+
 #include "material/from_primitive.h"
 #include "scene/builder.h"
 #include "scene/emitter.h"
+#include "scene/mist.h"
 #include "scene/model_choice.h"
 
 /* A failure that is told once, where the material is first used. */
@@ -135,6 +139,36 @@ static graze_status read_prism(scene_builder *b, scene_material *material, const
                   : material_prism_compile(&material->prism, material_modifiers_library(b->scene->modifiers), p);
 }
 
+/* Light goes through, but where a body that is cut is closed by the first material listed. */
+static graze_status read_antimatter(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    material->kind = SCENE_NOTHING;
+    material->cuts = true;
+    material->modifiers = NULL;
+    if (!strcmp(p->strings[0], "void"))
+        return GRAZE_OK;
+    graze_status status = scene_read_alternate(b, p, &material->alternate);
+    if (status == GRAZE_OK && b->scene->materials[material->alternate].cuts)
+        return rad_primitive_error(b->report, p, "antimatter cannot be cut");
+    return status;
+}
+
+static graze_status read_mist(scene_builder *b, scene_material *material, const rad_primitive *p) {
+    graze_scene *scene = b->scene;
+    material->kind = SCENE_NOTHING;
+    if (material->modifiers)
+        return rad_primitive_error(b->report, p, "patterns on mist are not supported");
+    if (!scene->mist)
+        scene->mist = calloc(1, sizeof *scene->mist);
+    if (!scene->mist)
+        return report_out_of_memory(b->report);
+    if (scene->mist->count == MIST_MOST)
+        return rad_primitive_error(b->report, p, "it is more than the %d-th mist", MIST_MOST);
+    graze_status status = scene_mist_read(&scene->mist->of[scene->mist->count], p, b->report);
+    if (status == GRAZE_OK)
+        material->mist = scene->mist->count++;
+    return status;
+}
+
 static graze_status read_wgmd(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = SCENE_WGMD;
     material->model = scene_choose_model(b->settings, p);
@@ -176,6 +210,10 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
         return read_function(b, material, p);
     if (material_is_prism(p->type))
         return read_prism(b, material, p);
+    if (p->type == RAD_MIST)
+        return read_mist(b, material, p);
+    if (p->type == RAD_ANTIMATTER)
+        return read_antimatter(b, material, p);
     if (p->type == RAD_WGMDFUNC)
         return read_wgmd(b, material, p);
     return read_reflector(b, material, p);
@@ -184,7 +222,7 @@ static graze_status read_material(scene_builder *b, scene_material *material, co
 static int add_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain;
-    scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1};
+    scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1, .mist = -1};
     graze_status status = find_chain(b, modifier, &chain);
     if (!status) {
         made.primitive = chain.material;

@@ -8,8 +8,10 @@
 #include "geometry/shaft.h"
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
+#include "scene/cuts.h"
 #include "scene/emitter.h"
 #include "scene/light_pattern.h"
+#include "scene/mist.h"
 #include "scene/model_choice.h"
 
 const char *scene_name(const graze_scene *scene, int primitive) {
@@ -98,12 +100,27 @@ static void note_mirror(scene_builder *b, int index) {
     scene->surfaces[index].mirrors = m->alternate < 0 || m->keeps_front;
 }
 
+/* Surfaces of mist are not met: they tell where it is. */
+static void add_bound(scene_builder *b, mist_material *mist, const shape *bound) {
+    shape *grown = realloc(mist->bounds, (mist->bound_count + 1) * sizeof *grown);
+    if (!grown) {
+        scene_fail(b, report_out_of_memory(b->report));
+        return;
+    }
+    mist->bounds = grown;
+    mist->bounds[mist->bound_count++] = *bound;
+}
+
 static void add_shape(scene_builder *b, int primitive) {
     graze_scene *scene = b->scene;
     size_t index = scene->surface_count;
     int material = scene_read_shape(b, primitive, &scene->shapes[index]);
     if (material < 0)
         return;
+    if (scene->materials[material].mist >= 0) {
+        add_bound(b, &scene->mist->of[scene->materials[material].mist], &scene->shapes[index]);
+        return;
+    }
     scene->surfaces[index] = (scene_surface){
         .primitive = primitive,
         .material = material,
@@ -298,6 +315,10 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK)
         b.status = add_all(&b);
     if (b.status == GRAZE_OK)
+        b.status = scene_cuts_make(scene, threads_of(&b), report);
+    if (b.status == GRAZE_OK)
+        b.status = scene_mist_make(scene, threads_of(&b), report);
+    if (b.status == GRAZE_OK)
         b.status = light_patterns_prepare(scene, threads_of(&b), report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
@@ -316,6 +337,8 @@ void graze_scene_destroy(graze_scene *scene) {
     if (!scene)
         return;
     geometry_destroy(scene->geometry);
+    scene_cuts_destroy(scene->cuts);
+    scene_mist_destroy(scene->mist);
     material_modifiers_destroy(scene->modifiers);
     for (size_t i = 0; i < scene->part_count; i++) {
         scene_part *part = &scene->parts[i];

@@ -66,6 +66,8 @@ typedef struct scene_material {
     scene_material_kind kind;
     int primitive;    /* the material, or the mixture, in the description */
     int alternate;    /* index into materials of what it is seen as; -1: as itself */
+    int mist;         /* index into scene->mist: its surfaces bound that, and are no surfaces; -1: no mist */
+    bool cuts;        /* antimatter: SCENE_NOTHING, its alternate what it closes bodies with, if with anything */
     bool keeps_front; /* with an alternate: the front of a mirror, which paths meet as that once they are scattered */
     const material_modifier *modifiers; /* patterns and textures, or null */
     union {
@@ -134,10 +136,12 @@ struct graze_scene {
     bool has_mirrors;              /* or dielectrics: light comes by ways that no light sample finds */
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
-    bool has_panes;      /* surfaces that light goes straight through */
-    bool has_refraction; /* dielectrics, prisms */
-    bool has_secondary;  /* lights of the material illum */
-    scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
+    bool has_panes;          /* surfaces that light goes straight through */
+    bool has_refraction;     /* dielectrics, prisms */
+    struct scene_mist *mist; /* (scene/mist.h) null: none */
+    struct scene_cuts *cuts; /* by antimatter (scene/cuts.h); null: none */
+    bool has_secondary;      /* lights of the material illum */
+    scene_light *lights;     /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */

@@ -3,6 +3,7 @@
 
 #include "base/angle.h"
 #include "trace/known_light.h"
+#include "trace/mist.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
 #include "trace/rare_gloss.h"
@@ -89,6 +90,11 @@ static bool light_is_visible(const path *p, const vertex *v, const light_sample 
     int target = scene->lights[sample->light].surface;
     geometry_ray ray = {
         .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
+    if (mist_is_there(p->context)) {
+        bool direct = light_role_at(&scene->lights[sample->light], sample->distance) == LIGHT_DIRECT;
+        *light =
+            rgb_multiply(mist_transmittance(p->context, v->point, sample->direction, sample->distance, direct), *light);
+    }
     if (!scene->has_panes)
         return !geometry_occluded(scene->geometry, &ray, target);
     *light = rgb_multiply(

@@ -4,6 +4,7 @@
 #include "geometry/crossing.h"
 #include "trace/appearance.h"
 #include "trace/direct_light.h"
+#include "trace/mist.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
 #include "trace/vertex.h"
@@ -94,6 +95,11 @@ static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror
     rgb before = panes_transmittance(p->context, &first, p->length, mirror, true);
     if (!(left > 0) || rgb_is_black(before))
         return rgb_gray(0);
+    if (mist_is_there(p->context)) {
+        bool direct = light_role_at(&scene->lights[sample->light], sample->distance) == LIGHT_DIRECT;
+        before = rgb_multiply(before, mist_transmittance(p->context, v->point, sample->direction, to_mirror, direct));
+        before = rgb_multiply(before, mist_transmittance(p->context, at, onward, left, direct));
+    }
     rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface,
                                      light_is_proper(scene, sample->light));
     return rgb_multiply(before, behind);

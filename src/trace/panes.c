@@ -1,6 +1,7 @@
 /* Rays that pass straight through surfaces: shadow rays, and the eye's where clear bodies are not there for it. */
 #include "trace/panes.h"
 
+#include "scene/cuts.h"
 #include "scene/surface.h"
 #include "trace/appearance.h"
 
@@ -8,7 +9,11 @@
 static rgb pane_transmittance(const path_context *context, const geometry_hit *hit, vec3 direction, double length,
                               double travelled, bool is_proper) {
     const graze_scene *scene = context->scene;
-    double slope = vec3_dot(hit->normal, direction);
+    scene_presence presence = scene->cuts ? scene_cuts_at(scene, hit->surface, hit->point, direction) : SCENE_THERE;
+    if (presence == SCENE_CUT_AWAY)
+        return rgb_gray(1);
+    vec3 normal = presence == SCENE_CUT_FACE ? vec3_negate(hit->normal) : hit->normal;
+    double slope = vec3_dot(normal, direction);
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
     if (slope < 0 && (material->keeps_front || (!is_proper && scene_material_emits(material))))
         return rgb_gray(0);
@@ -21,7 +26,7 @@ static rgb pane_transmittance(const path_context *context, const geometry_hit *h
                          .light = -1,
                          .distance = travelled + hit->distance,
                          .point = hit->point,
-                         .normal = hit->normal,
+                         .normal = normal,
                          .direction = direction,
                          .behind = slope > 0};
     return appearance_straight_through(scene, material, &at, length);

@@ -15,6 +15,7 @@
 #include "trace/known_light.h"
 #include "trace/lobes.h"
 #include "trace/mirrored_light.h"
+#include "trace/mist.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
 #include "trace/rare_gloss.h"
@@ -139,6 +140,7 @@ static void gather_below(path *p, const vertex *v, const other_side *beyond) {
 /* Gathers light at a vertex and goes on from there until the path ends. */
 static void follow(path *p, gathering *here) {
     const path_context *context = p->context;
+    const bool mist = mist_is_there(context);
     gathering later[2]; /* one of them has seen the lights that the last scattering refers to */
     other_side others[2];
     for (;;) {
@@ -159,7 +161,7 @@ static void follow(path *p, gathering *here) {
         p->known.controls = p->known.settled = p->known.watched = 0;
         p->gloss = rare_gloss_at(p, v);
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
-            if (!context->observer)
+            if (!context->observer && !mist)
                 known_light_add(p, v, &here->lights);
             direct_light_add(p, v, &here->lights, &here->lobes);
         }
@@ -169,7 +171,7 @@ static void follow(path *p, gathering *here) {
             mirrored_light_add(p, v, &here->lobes);
         const bool ends = !transmits && !lobes_may_reflect(&here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
-        if (!ends && !context->observer && !decided && known_light_is_all(p, v, &here->lights))
+        if (!ends && !context->observer && !mist && !decided && known_light_is_all(p, v, &here->lights))
             return;
         here->decided = !v->drawn;
         if (ends)
@@ -182,6 +184,8 @@ static void follow(path *p, gathering *here) {
         path_hit hit = path_cast(context, v->point, direction, GEOMETRY_FAR, v->surface);
         if (context->scene->has_refraction)
             attenuate(p, &hit);
+        if (mist)
+            mist_follow(p, v->point, direction, hit.distance);
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         observe_ray(p, v->point, &hit, found);
@@ -249,6 +253,16 @@ static gathering *begin_at(const path_context *context, gathering *own) {
     return alike ? &context->memory->first : own;
 }
 
+/* Through mist to the first hit; what is scattered on the way no mirror shows. */
+static void follow_first(path *p, const path_hit *first) {
+    vec3 origin = first->point;
+    if (first->surface >= 0)
+        origin = vec3_add_scaled(origin, -first->distance, first->direction);
+    mist_follow(p, origin, first->direction, first->distance);
+    if (p->context->settings->part == GRAZE_MIRRORED)
+        p->radiance = rgb_gray(0);
+}
+
 void path_radiance(const path_context *context, const path_hit *first, sampler *points, path_sample *sample) {
     path p;
     path_start(&p, context, points);
@@ -261,8 +275,10 @@ void path_radiance(const path_context *context, const path_hit *first, sampler *
         beyond = panes_look_through(context, first);
         first = &beyond;
     }
+    if (mist_is_there(context))
+        follow_first(&p, first);
     if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
-        p.radiance = emission_found(&p, first);
+        p.radiance = rgb_add(p.radiance, emission_found(&p, first));
     if (here->decided || (vertex_at_hit(&p, first, v) && vertex_keep_part(v, context->settings->part))) {
         bool probe = context->settings->quantity == GRAZE_IRRADIANCE_HIT;
         p.length = first->distance;

@@ -21,7 +21,7 @@ graze_trace_settings graze_trace_defaults(void) {
 #define REFLECTIONS 1000000
 
 graze_status graze_trace_check(const graze_trace_settings *s, const graze_report *report) {
-    rgb av = s->ambient_value;
+    rgb av = s->ambient_value, me = s->mist_extinction, ma = s->mist_albedo;
     if (s->quantity < GRAZE_RADIANCE || s->quantity > GRAZE_IRRADIANCE)
         return report_error(report, NULL, "unknown quantity %d", (int)s->quantity);
     if (s->part < GRAZE_WHOLE || s->part > GRAZE_UNMIRRORED)
@@ -34,6 +34,12 @@ graze_status graze_trace_check(const graze_trace_settings *s, const graze_report
         return report_error(report, NULL, "ambient bounces must not be negative");
     if (!(av.r >= 0 && av.g >= 0 && av.b >= 0 && rgb_max(av) <= SCENE_LARGEST_RADIANCE))
         return report_error(report, NULL, "the ambient value must be in 0 .. 1e100");
+    if (!(me.r >= 0 && me.g >= 0 && me.b >= 0 && rgb_max(me) <= SCENE_LARGEST_RADIANCE))
+        return report_error(report, NULL, "the extinction of mist must be in 0 .. 1e100");
+    if (!(ma.r >= 0 && ma.g >= 0 && ma.b >= 0 && rgb_max(ma) <= 1))
+        return report_error(report, NULL, "the albedo of mist must be in 0 .. 1");
+    if (!(s->mist_eccentricity > -1 && s->mist_eccentricity < 1))
+        return report_error(report, NULL, "the eccentricity of mist must be between -1 and 1");
     if (!(s->minimum_weight >= 0 && s->minimum_weight <= 1))
         return report_error(report, NULL, "the minimum weight must be in 0 .. 1");
     if (!(s->specular_threshold >= 0 && s->specular_threshold <= 1))

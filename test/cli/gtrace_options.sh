@@ -41,7 +41,7 @@ done
 check "-n is not kept from being 0" bash -c '! '"$gtrace"' -n 0 room.rad </dev/null 2>/dev/null'
 check "no server is left, and no file of it" test ! -e control
 
-fails "mist" 1 "mist is not supported" "" "$gtrace" -me .1 0 0 room.rad
+fails "an albedo above 1" 1 "-ma" "" "$gtrace" -ma 1 2 1 room.rad
 fails "spectra" 1 "spectra are not supported" "" "$gtrace" -co+ -cs 20 room.rad
 fails "a wavelength that is none" 1 "'red'" "" "$gtrace" -cw 380 red room.rad
 fails "-P without its file" 1 "'-P'" "" "$gtrace" -P
@@ -183,7 +183,8 @@ fails "-features behind another option" 1 "first" "" "$gtrace" -w -features
 # All that can be set is printed, and read again.
 "$gtrace" -ae 'a b' -aE list -te x -tI list -pc .7 .3 .2 .7 .15 .05 .3127 .3290 -e log -fad -oTsV -me 0 0 0 -cs 20 -ac 3 -defaults >defaults 2>err
 check "-te and -tI do not go together, with -defaults either" grep -q 'not both' err
-"$gtrace" -ae 'a b' -aE list -ti x -tI list -pc .7 .3 .2 .7 .15 .05 .3127 .3290 -e log -e 'a = 1;b = 2' -f x.cal -e c:2 -fad -oTsV -me 0 0 0 -cs 20 -ac 3 -defaults >defaults
+"$gtrace" -ae 'a b' -aE list -ti x -tI list -pc .7 .3 .2 .7 .15 .05 .3127 .3290 -e log -e 'a = 1;b = 2' -f x.cal -e c:2 -fad -oTsV -me .1 .2 .3 -ma .5 .6 .7 -mg .5 -cs 20 -ac 3 -defaults >defaults
 check "-defaults tells what was set" bash -c "grep -q \"^-ae 'a b' -ae shiny -ae dull\" defaults && grep -q '^-ti x -ti shiny -ti dull' defaults && grep -q '^-pc 0.7 0.3' defaults && grep -q \"^-e log -e 'a = 1;b = 2' -f x.cal -e c:2\" defaults"
+check "... of mist" bash -c "grep -q '^-me 0.1 0.2 0.3' defaults && grep -q '^-ma 0.5 0.6 0.7' defaults && grep -q '^-mg 0.5' defaults"
 check "... re-readable" bash -c "'$gtrace' @<(sed 's/#.*//' defaults) -defaults | cmp - defaults"
 plan

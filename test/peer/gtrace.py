@@ -147,6 +147,15 @@ def cases():
     yield Case("alternates of mirrors, seen", "alternates", np.vstack([aim(eye, grid([-2.8, 2, .1], [2.8, 2, 2], 64, odd)) for eye in [[.1, -2, 1], [.1, 4, 1]]]),
                "-ab 0", "-dr 1 -dp 0", repeat=64)
 
+    yield Case("antimatter, seen", "antimatter", np.vstack([aim(eye, grid([-2, -2.2, .01], [2, 1.2, .01], 144, odd) + [0, 0, .6] * (np.arange(144)[:, None] % 2))
+               for eye in [[.1, -4, 2], [-2, 1, 3]]]), "-ab 0", repeat=256)
+    yield Case("antimatter, irradiance", "antimatter", sensors([-2.8, -1, 0], [2.8, 1.9, 0], 144, up, odd), "-I -ab 0", repeat=256)
+
+    foggy = aim([.1, -4, 1.2], grid([-2.2, 0, .05], [2.2, 0, 2.2], 100, odd))
+    yield Case("mist, seen", "mist", foggy, "-ab 0 -av .1 .2 .3 -ma .8 .7 .6 -mg .5", "-ms .05", repeat=128, samples=16384)
+    yield Case("mist, irradiance", "mist", sensors([-2.8, -2.8, 0], [2.8, 2.8, 0], 100, up, odd), "-I -ab 0 -ma .8 .7 .6 -mg .5", "-ms .05", repeat=128)
+    yield Case("mist everywhere", "mist", foggy[::3], "-ab 0 -av .1 .2 .3 -me .1 .15 .2 -ma .9 .8 .7 -mg .5", "-ms .05", repeat=128, samples=16384)
+
     away = normalized(random.normal(size=(600, 3)))
     towards = random.uniform([-2.5, -1.5, -1], [2.5, 3, 2.5], size=(600, 3)) - 6 * away
     inside = np.c_[random.uniform([-2, -1, -0.5], [2, 2, 2], size=(600, 3)), away]

@@ -18,7 +18,8 @@ static void assert_refused(const char *text, const char *place_and_name, const c
 
 static void unsupported_types_are_refused_by_name(void **state) {
     (void)state;
-    assert_refused("\nvoid mist pane 0 0 0\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: mist pane", "not supported");
+    assert_refused("\nvoid aBSDF pane 5 a.xml 0 0 1 . 0 0\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: aBSDF pane",
+                   "not supported");
     assert_refused("void BSDF d 6 0 a.xml 0 0 1 . 0 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: BSDF d", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
                    "cannot find octree file \"other.oct\"");
@@ -72,11 +73,43 @@ static void alternates_of_mirrors_are_checked(void **state) {
                    "seen as l, which shines");
 }
 
+static void antimatter_is_checked(void **state) {
+    (void)state;
+    assert_refused("void antimatter i 0 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: antimatter i", "string");
+    assert_refused("void antimatter i 1 a 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i", "no modifier 'a' before");
+    assert_refused(
+        "void light l 0 0 3 1 1 1 void antimatter i 2 void l 0 0 i sphere s 0 0 4 0 0 0 1 l sphere t 0 0 4 3 "
+        "0 0 1\n",
+        "antimatter i", "cuts l, which shines");
+    assert_refused("void antimatter j 1 void 0 0 void antimatter i 1 j 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i",
+                   "cannot be cut");
+    graze_scene *scene = scene_from_text("void antimatter i 2 void no 0 0 i sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_non_null(strstr(messages, "antimatter i: there is no modifier 'no' before it, which it could cut"));
+    graze_scene_destroy(scene);
+}
+
+static void mist_is_checked(void **state) {
+    (void)state;
+    assert_refused("void mist i 0 0 2 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mist i", "0, 3, 6 or 7");
+    assert_refused("void mist i 0 0 3 1 -1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mist i", "argument 2");
+    assert_refused("void mist i 0 0 6 1 1 1 .5 .5 2 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mist i", "argument 6");
+    assert_refused("void mist i 0 0 7 1 1 1 .5 .5 1 1 i sphere s 0 0 4 0 0 0 1\n", "mist i", "eccentricity");
+    assert_refused("void brightfunc p 2 Px . 0 0 p mist i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "mist i",
+                   "patterns on mist");
+    graze_scene *scene = scene_from_text("void light l 0 0 3 1 1 1 l sphere a 0 0 4 5 0 0 1 "
+                                         "void mist i 3 a b a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_non_null(strstr(messages, "mist i: there is no light 'b'"));
+    assert_non_null(strstr(messages, "mist i: light 'a' is listed twice"));
+    graze_scene_destroy(scene);
+}
+
 static void all_mistakes_are_told_at_once(void **state) {
     (void)state;
-    const char *text =
-        "void mist a 0 0 0 a sphere s 0 0 4 0 0 0 1\nvoid BSDF b 6 0 a.xml 0 0 1 . 0 0 b sphere t 0 0 4 0 0 0 1\n";
-    assert_refused(text, "mist a", "BSDF b");
+    const char *text = "void aBSDF a 5 a.xml 0 0 1 . 0 0 a sphere s 0 0 4 0 0 0 1\nvoid BSDF b 6 0 a.xml 0 0 1 . 0 0 b "
+                       "sphere t 0 0 4 0 0 0 1\n";
+    assert_refused(text, "aBSDF a", "BSDF b");
 }
 
 static void unused_modifiers_do_no_harm(void **state) {
@@ -237,6 +270,8 @@ int main(void) {
         cmocka_unit_test(illums_are_checked),
         cmocka_unit_test(prisms_are_checked),
         cmocka_unit_test(alternates_of_mirrors_are_checked),
+        cmocka_unit_test(antimatter_is_checked),
+        cmocka_unit_test(mist_is_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),

@@ -140,9 +140,11 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
          definition_list_take_expression, definition_list_print},
         {"-f", OPTION_CUSTOM, &o->definitions, "FILE", "definitions for all function files", 0, 0,
          definition_list_take_file, NULL},
-        {"", OPTION_HEADING, NULL, NULL, "Refused unless they change nothing", 0, 0, NULL, NULL},
-        {"-me", OPTION_REAL3, o->mist_extinction, "R G B", "mist everywhere: 0 0 0, there is none", 0, INFINITY, NULL,
+        {"-me", OPTION_REAL3, o->mist_extinction, "R G B", "extinction of mist everywhere", 0, 1e100, NULL, NULL},
+        {"-ma", OPTION_REAL3, o->mist_albedo, "R G B", "albedo of mist that says none", 0, 1, NULL, NULL},
+        {"-mg", OPTION_REAL, &o->mist_eccentricity, "G", "eccentricity of mist that says none", -0.9999, 0.9999, NULL,
          NULL},
+        {"", OPTION_HEADING, NULL, NULL, "Refused unless they change nothing", 0, 0, NULL, NULL},
         {"-co", OPTION_FLAG, &o->all_components, NULL, "print all components of spectra: 3", 0, 0, NULL, NULL},
         {"-cs", OPTION_INTEGER, &o->components, "N", "components of spectra; with -co+, 3 at most", 1, 1000, NULL,
          NULL},
@@ -165,8 +167,6 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
         {"-am", OPTION_REAL, &o->ignored.photon_radius, "R", "photon search radius", 0, INFINITY, NULL, NULL},
         {"-ac", OPTION_TEXT, &o->ignored.photon_page, "N", "photon cache page", 0, 0, NULL, NULL},
         {"-aC", OPTION_TEXT, &o->ignored.photon_cache, "N", "photon cache size", 0, 0, NULL, NULL},
-        {"-ma", OPTION_REAL3, o->ignored.mist_albedo, "R G B", "mist albedo", 0, 1, NULL, NULL},
-        {"-mg", OPTION_REAL, &o->ignored.mist_eccentricity, "G", "mist eccentricity", -1, 1, NULL, NULL},
         {"-ms", OPTION_REAL, &o->ignored.mist_distance, "D", "mist sampling distance", 0, INFINITY, NULL, NULL},
         {"-cw", OPTION_CUSTOM, NULL, "NM NM", "range of wavelengths", 0, 0, peer_take_wavelengths, NULL},
         {"-P", OPTION_CUSTOM, NULL, "FILE", "persistent server (also -PP): the scene is loaded anew", 0, 0,
@@ -195,14 +195,15 @@ static graze_status read_strategy(const char *name, graze_strategy *strategy, co
 
 graze_status render_options_settings(const render_options *o, bool sensor, graze_trace_settings *s,
                                      const graze_report *report) {
-    if (o->mist_extinction[0] > 0 || o->mist_extinction[1] > 0 || o->mist_extinction[2] > 0)
-        return report_error(report, NULL, "option '-me': mist is not supported yet");
     if (o->all_components && o->components > 3)
         return report_error(report, NULL, "options '-co' and '-cs': spectra are not supported yet");
     *s = graze_trace_defaults();
     s->quantity = sensor ? GRAZE_IRRADIANCE : o->irradiance ? GRAZE_IRRADIANCE_HIT : GRAZE_RADIANCE;
     s->ambient_bounces = o->ambient_divisions > 0 ? o->ambient_bounces : 0;
     s->ambient_value = (graze_rgb){o->ambient_value[0], o->ambient_value[1], o->ambient_value[2]};
+    s->mist_extinction = (graze_rgb){o->mist_extinction[0], o->mist_extinction[1], o->mist_extinction[2]};
+    s->mist_albedo = (graze_rgb){o->mist_albedo[0], o->mist_albedo[1], o->mist_albedo[2]};
+    s->mist_eccentricity = o->mist_eccentricity;
     s->back_faces_visible = o->back_faces;
     s->lights_visible = o->lights_visible;
     s->reflection_limit = o->reflection_limit;

@@ -35,11 +35,11 @@ typedef struct render_options {
     bool all_components;     /* -co */
     int components;          /* -cs */
     double ambient_accuracy; /* 0: without an irradiance cache, in pictures */
-    double mist_extinction[3];
+    double mist_extinction[3], mist_albedo[3], mist_eccentricity;
     /* Accepted so that Radiance's command lines work; Graze has nothing that they could steer. */
     struct {
         double direct_threshold, direct_certainty, direct_jitter, direct_sampling, specular_sampling;
-        double photon_radius, mist_albedo[3], mist_eccentricity, mist_distance;
+        double photon_radius, mist_distance;
         int ambient_weight, ambient_resolution, ambient_supersamples, direct_relays, direct_pretest;
         const char *ambient_file, *photon_page, *photon_cache;
         bool uncorrelated;

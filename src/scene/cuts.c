@@ -1,0 +1,185 @@
+/* Whether a point is inside of a body is told by how often the ray that comes there has entered it more than left it,
+ * which is found by following it back: what is open on the far side, such as a floor, is then a body, too, as in
+ * Radiance. */
+#include "scene/cuts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/builder.h"
+
+/* As many materials of antimatter may a scene have: a bit for each. */
+enum { MOST = 64 };
+
+struct scene_cuts {
+    int count;           /* of antimatters */
+    int materials[MOST]; /* of each its material */
+    uint64_t *cut_by;    /* by surface: the antimatters that cut it */
+    int8_t *antimatter;  /* by surface: which one it bounds, or -1 */
+    shape *bounds;       /* their surfaces, those of each behind one another */
+    geometry *of[MOST];  /* of the bounds of each: those of two may coincide */
+};
+
+static uint64_t bit(int antimatter) {
+    return UINT64_C(1) << antimatter;
+}
+
+/* The modifier of that name, the latest before the primitive; it is warned of where there is none. */
+static int listed(const graze_scene *scene, const rad_primitive *p, const char *name, const graze_report *report) {
+    for (const rad_primitive *q = p; q-- > scene->primitives;)
+        if (!rad_type_is_surface(q->type) && !strcmp(q->id, name))
+            return (int)(q - scene->primitives);
+    if (strcmp(name, "void"))
+        rad_primitive_warning(report, p, "there is no modifier '%.64s' before it, which it could cut", name);
+    return RAD_VOID;
+}
+
+/* Notes what one antimatter cuts. */
+static graze_status note_cut(graze_scene *scene, int antimatter, const graze_report *report) {
+    scene_cuts *cuts = scene->cuts;
+    const rad_primitive *p = &scene->primitives[scene->materials[cuts->materials[antimatter]].primitive];
+    for (uint32_t i = 0; i < p->string_count; i++) {
+        int modifier = listed(scene, p, p->strings[i], report);
+        for (size_t k = 0; k < scene->surface_count && modifier != RAD_VOID; k++) {
+            if (scene->primitives[scene->surfaces[k].primitive].modifier != modifier)
+                continue;
+            if (scene->surfaces[k].light >= 0)
+                return rad_primitive_error(report, p, "it cuts %s, which shines: that is not supported", p->strings[i]);
+            cuts->cut_by[k] |= bit(antimatter);
+            scene->shapes[k].passes = true;
+        }
+    }
+    return GRAZE_OK;
+}
+
+/* Lights are not sampled in what is left of mirrors. */
+static void leave_mirrors_out(graze_scene *scene) {
+    size_t kept = 0;
+    for (size_t i = 0; i < scene->mirror_count; i++) {
+        int mirror = scene->mirrors[i];
+        if (scene->cuts->cut_by[mirror])
+            scene->surfaces[mirror].mirrors = false;
+        else
+            scene->mirrors[kept++] = mirror;
+    }
+    scene->mirror_count = kept;
+}
+
+/* Builds the bounds of one antimatter; gives how many there are. */
+static graze_status build_bounds(graze_scene *scene, int antimatter, shape *bounds, size_t *count, int threads,
+                                 const graze_report *report) {
+    scene_cuts *cuts = scene->cuts;
+    *count = 0;
+    for (size_t k = 0; k < scene->surface_count; k++) {
+        if (scene->surfaces[k].material != cuts->materials[antimatter])
+            continue;
+        scene->shapes[k].passes = true;
+        cuts->antimatter[k] = (int8_t)antimatter;
+        bounds[(*count)++] = scene->shapes[k];
+    }
+    const geometry_group group = {.shapes = bounds, .shape_count = *count};
+    return geometry_build(&cuts->of[antimatter], &group, 1, threads, report);
+}
+
+graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report *report) {
+    int count = 0, materials[MOST];
+    for (size_t i = 0; i < scene->material_count; i++) {
+        if (!scene->materials[i].cuts)
+            continue;
+        if (count == MOST)
+            return rad_primitive_error(report, &scene->primitives[scene->materials[i].primitive],
+                                       "it is more than the %d-th antimatter", MOST);
+        materials[count++] = (int)i;
+    }
+    if (count == 0)
+        return GRAZE_OK;
+    scene_cuts *cuts = scene->cuts = calloc(1, sizeof *cuts);
+    if (!cuts)
+        return report_out_of_memory(report);
+    cuts->count = count;
+    memcpy(cuts->materials, materials, sizeof materials[0] * (size_t)count);
+    cuts->cut_by = calloc(scene->surface_count + 1, sizeof *cuts->cut_by);
+    cuts->antimatter = calloc(scene->surface_count + 1, sizeof *cuts->antimatter);
+    cuts->bounds = calloc(scene->surface_count + 1, sizeof *cuts->bounds);
+    if (!cuts->cut_by || !cuts->antimatter || !cuts->bounds)
+        return report_out_of_memory(report);
+    scene->has_panes = true;
+    memset(cuts->antimatter, -1, scene->surface_count);
+    graze_status status = GRAZE_OK;
+    shape *bounds = cuts->bounds;
+    size_t built;
+    for (int i = 0; i < count && status == GRAZE_OK; i++, bounds += built) {
+        status = build_bounds(scene, i, bounds, &built, threads, report);
+        if (status == GRAZE_OK)
+            status = note_cut(scene, i, report);
+    }
+    leave_mirrors_out(scene);
+    return status;
+}
+
+void scene_cuts_destroy(scene_cuts *cuts) {
+    if (!cuts)
+        return;
+    for (int i = 0; i < cuts->count; i++)
+        geometry_destroy(cuts->of[i]);
+    free(cuts->cut_by);
+    free(cuts->antimatter);
+    free(cuts->bounds);
+    free(cuts);
+}
+
+/* Steps to the next surface on the ray. */
+static bool next_hit(const geometry *g, geometry_ray *ray, geometry_hit *hit) {
+    if (!geometry_intersect(g, ray, hit))
+        return false;
+    ray->origin = hit->point;
+    ray->from = hit->surface;
+    return true;
+}
+
+/* Whether a point is inside of any of the antimatters asked for. */
+static bool is_inside(const scene_cuts *cuts, uint64_t asked, vec3 point, vec3 direction) {
+    for (int i = 0; i < cuts->count; i++) {
+        geometry_ray ray = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
+        geometry_hit hit;
+        int balance = 0;
+        while ((asked & bit(i)) && next_hit(cuts->of[i], &ray, &hit))
+            balance += vec3_dot(hit.normal, direction) > 0 ? 1 : -1;
+        if (balance > 0)
+            return true;
+    }
+    return false;
+}
+
+/* Whether a point of an antimatter's boundary is inside of a body that it cuts, and that no other one has cut out
+ * there. */
+static bool is_face(const graze_scene *scene, int antimatter, int64_t surface, vec3 point, vec3 direction) {
+    const scene_cuts *cuts = scene->cuts;
+    geometry_ray ray = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = surface};
+    geometry_hit hit;
+    uint64_t others = 0;
+    int balance = 0, most = 0;
+    while (next_hit(scene->geometry, &ray, &hit)) {
+        bool own = hit.surface < (int64_t)scene->surface_count;
+        if (!own || !(cuts->cut_by[hit.surface] & bit(antimatter)))
+            continue;
+        balance += vec3_dot(hit.normal, direction) > 0 ? 1 : -1;
+        if (balance > most) {
+            most = balance;
+            others = cuts->cut_by[hit.surface] & ~bit(antimatter);
+        }
+    }
+    return balance > 0 && !is_inside(cuts, others, point, direction);
+}
+
+scene_presence scene_cuts_at(const graze_scene *scene, int64_t surface, vec3 point, vec3 direction) {
+    const scene_cuts *cuts = scene->cuts;
+    if (surface >= (int64_t)scene->surface_count)
+        return SCENE_THERE;
+    int antimatter = cuts->antimatter[surface];
+    const vec3 back = vec3_negate(direction);
+    if (antimatter < 0)
+        return is_inside(cuts, cuts->cut_by[surface], point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
+    bool closes = scene->materials[cuts->materials[antimatter]].alternate >= 0;
+    return closes && is_face(scene, antimatter, surface, point, back) ? SCENE_CUT_FACE : SCENE_CUT_AWAY;
+}

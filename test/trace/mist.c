@@ -1,0 +1,138 @@
+/* Mist: what it leaves of light, and what it scatters. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/angle.h"
+#include "base/vector.h"
+#include "graze/trace.h"
+#include "support/scene_text.h"
+
+static graze_answer answer_of(const char *text, graze_trace_settings settings, graze_quantity quantity, vec3 origin,
+                              vec3 direction) {
+    graze_scene *scene = scene_from_text(text);
+    if (!scene)
+        fail_msg("%s: %s", text, messages);
+    settings.quantity = quantity;
+    settings.samples = 16384;
+    const graze_ray ray = {.origin = origin, .direction = direction};
+    graze_answer found;
+    graze_trace(scene, &settings, &ray, 7, &found, NULL);
+    graze_scene_destroy(scene);
+    return found;
+}
+
+/* A glow behind a slab of mist, or two that abut or overlap; seen from outside, and from within. */
+static void light_is_attenuated(void **state) {
+    (void)state;
+    static const struct {
+        const char *mist;
+        double from, depth; /* optical, of red */
+    } cases[] = {
+        {"void mist m 0 0 3 .5 1 2 m sphere s 0 0 4 0 0 0 1", -5, 1},
+        {"void mist m 0 0 3 .5 1 2 m sphere s 0 0 4 0 0 0 1", 0, .5},
+        {"void mist m 0 0 3 .5 1 2 m sphere s 0 0 4 0 0 0 1 m sphere t 0 0 4 0 1 0 1", -5, 1.5},
+        {"void mist m 0 0 3 .5 1 2 m sphere s 0 0 4 0 0 0 1 void mist n 0 0 3 .25 .5 1 n sphere t 0 0 4 0 1 0 1", -5,
+         1.5},
+        {"void mist m 0 0 3 .5 1 2 m sphere s 0 0 4 0 -1 0 1 void mist n 0 0 3 .25 .5 1 n sphere t 0 0 4 0 1 0 1", -5,
+         1.5},
+        {"void mist m 0 0 3 .5 1 2 m ring a 0 0 8 0 -1 0 0 -1 0 0 2 m ring b 0 0 8 0 0 0 0 1 0 0 2 "
+         "void mist n 0 0 3 1 2 4 n ring c 0 0 8 0 0 0 0 -1 0 0 2 n ring d 0 0 8 0 1 0 0 1 0 0 2",
+         -5, 1.5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1000];
+        snprintf(text, sizeof text, "void glow g 0 0 4 1 1 1 -1 g polygon wall 0 0 12 -9 9 -9 9 9 -9 9 9 9 -9 9 9 %s",
+                 cases[i].mist);
+        graze_answer a =
+            answer_of(text, graze_trace_defaults(), GRAZE_RADIANCE, vec3_make(0, cases[i].from, 0), vec3_make(0, 1, 0));
+        double expected[] = {exp(-cases[i].depth), exp(-2 * cases[i].depth), exp(-4 * cases[i].depth)};
+        if (fabs(a.value.r - expected[0]) > 1e-9 || fabs(a.value.g - expected[1]) > 1e-9 ||
+            fabs(a.value.b - expected[2]) > 1e-9)
+            fail_msg("case %zu: %g %g %g, not %g %g %g", i, a.value.r, a.value.g, a.value.b, expected[0], expected[1],
+                     expected[2]);
+    }
+}
+
+/* A small lamp in the middle of a ball of mist, seen past it: the integral along the ray, by quadrature. */
+static void lamps_are_scattered(void **state) {
+    (void)state;
+    const double extinction = 0.4, albedo = 0.7, radius = 0.02, apart = 0.5, end = sqrt(4 - apart * apart);
+    for (int k = 0; k < 2; k++) {
+        double eccentricity = 0.6 * k, sum = 0;
+        const int steps = 20000;
+        for (int i = 0; i < steps; i++) {
+            double t = -end + 2 * end * (i + 0.5) / steps, square = t * t + apart * apart;
+            double cosine = -t / sqrt(square), solid_angle = 2 * PI * (1 - sqrt(1 - radius * radius / square));
+            double s = 1 + eccentricity * eccentricity - 2 * eccentricity * cosine;
+            double phase = (1 - eccentricity * eccentricity) / (4 * PI * s * sqrt(s));
+            /* The shadow ray loses what is absorbed, to the lamp's surface. */
+            double left = exp(-extinction * (t + end) - extinction * (1 - albedo) * sqrt(square));
+            sum += extinction * albedo * phase * solid_angle * left * 2 * end / steps;
+        }
+        char text[500];
+        snprintf(text, sizeof text,
+                 "void light l 0 0 3 100 100 100 l sphere lamp 0 0 4 0 0 0 %g void mist m 1 lamp 0 7 %g %g %g %g %g %g "
+                 "%g m sphere s 0 0 4 0 0 0 2",
+                 radius, extinction, extinction, extinction, albedo, albedo, albedo, eccentricity);
+        graze_answer a =
+            answer_of(text, graze_trace_defaults(), GRAZE_RADIANCE, vec3_make(apart, -9, 0), vec3_make(0, 1, 0));
+        double expected = 100 * sum;
+        /* The way ends at the lamp's surface, not at its middle. */
+        if (fabs(a.value.g - expected) > 4.5 * a.standard_error.g + 3e-3 * expected)
+            fail_msg("%g +- %g, not %g", a.value.g, a.standard_error.g, expected);
+    }
+}
+
+static void strategies_agree(void **state) {
+    (void)state;
+    const char *text =
+        "void plastic p 0 0 5 .5 .4 .3 .1 .2 p polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0 "
+        "void light l 0 0 3 4 3 2 l sphere lamp 0 0 4 .5 0 2 .5 void glow g 0 0 4 1 2 3 0 g polygon ceiling 0 0 12 -2 "
+        "-2 3 "
+        "-2 2 3 2 2 3 2 -2 3 void mist m 1 lamp 0 7 .3 .4 .5 .8 .7 .6 .4 m sphere cloud 0 0 4 0 .3 1 1.4";
+    graze_answer answers[3];
+    for (int bounces = 0; bounces < 2; bounces++) {
+        for (int i = 0; i < 3; i++) {
+            const graze_strategy all[] = {GRAZE_STRATEGY_MIS, GRAZE_STRATEGY_LIGHT, GRAZE_STRATEGY_BRDF};
+            graze_trace_settings settings = graze_trace_defaults();
+            settings.strategy = all[i];
+            settings.ambient_bounces = bounces;
+            settings.mist_extinction = rgb_gray(0.05);
+            settings.mist_albedo = rgb_gray(0.5);
+            answers[i] = answer_of(text, settings, GRAZE_RADIANCE, vec3_make(0, -3, 1), vec3_make(0, 3, -1));
+        }
+        for (int i = 1; i < 3; i++) {
+            double error = hypot(answers[i].standard_error.g, answers[0].standard_error.g);
+            if (!(fabs(answers[i].value.g - answers[0].value.g) <= 4.5 * error))
+                fail_msg("%d bounces: %g and %g, +- %g", bounces, answers[0].value.g, answers[i].value.g, error);
+        }
+    }
+}
+
+/* Without mist the same bytes come out, whatever mist would do. */
+static void no_mist_changes_nothing(void **state) {
+    (void)state;
+    const char *text = "void plastic p 0 0 5 .5 .4 .3 .1 .2 p polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0 "
+                       "void light l 0 0 3 4 3 2 l sphere lamp 0 0 4 .5 0 2 .5 ";
+    graze_trace_settings settings = graze_trace_defaults(), misty = settings;
+    misty.mist_albedo = rgb_gray(1);
+    misty.mist_eccentricity = 0.5;
+    graze_answer a = answer_of(text, settings, GRAZE_RADIANCE, vec3_make(0, -3, 1), vec3_make(0, 3, -1));
+    graze_answer b = answer_of(text, misty, GRAZE_RADIANCE, vec3_make(0, -3, 1), vec3_make(0, 3, -1));
+    assert_memory_equal(&a.value, &b.value, sizeof a.value);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_is_attenuated),
+        cmocka_unit_test(lamps_are_scattered),
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(no_mist_changes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
