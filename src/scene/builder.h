@@ -23,6 +23,11 @@ int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
 /* Whether some light goes straight through some of it. */
 bool scene_material_is_pane(const graze_scene *, const scene_material *);
 
+/* Of a surface, whether lights are sampled in it if it is flat. */
+static inline bool scene_material_is_plain_mirror(const scene_material *m) {
+    return m->plain && m->reflector.kind == GRAZE_MIRROR;
+}
+
 /* The shape of a surface, with what its material says of it. Its material; or a negative number where there is no
  * surface (reported). */
 int scene_read_shape(scene_builder *, int primitive, shape *);

@@ -28,7 +28,8 @@ static int seen_light(scene_builder *b, int material, const shape *s, const rad_
 /* `user` is told of in messages. */
 static scene_surface make_surface(scene_builder *b, int primitive, int material, const shape *s,
                                   const rad_primitive *user) {
-    const graze_scene *scene = b->scene;
+    graze_scene *scene = b->scene;
+    scene->has_mirrors = scene->has_mirrors || scene_material_is_plain_mirror(&scene->materials[material]);
     return (scene_surface){
         .primitive = primitive,
         .material = material,

@@ -43,15 +43,24 @@ void scene_fail(scene_builder *b, graze_status status) {
 /* A failure that is told once, where the material is first used. */
 #define MATERIAL_REFUSED (-2)
 
-static bool is_mirror(const scene_material *material) {
+/* A mirror that reflects no more than this straight on, as glass and varnish do, is faint: of the lights in it, much
+ * less comes than straight from the lights. */
+#define FAINT 0.1
+
+/* Whether reflections in a material may bring much light that no light sample finds. Of a flat `mirror`, lights are
+ * sampled; others of that material are found among the surfaces. */
+static bool is_mirror(const graze_scene *scene, const scene_material *material) {
     const vec3 normal = {0, 0, 1};
     graze_surface probe;
-    if (material->emits || material->mixture || material->reflection)
+    if (material->mixture)
+        return scene_material_is_plain_mirror(&scene->materials[material->fore]) ||
+               scene_material_is_plain_mirror(&scene->materials[material->back]);
+    if (material->emits || material->reflection || scene_material_is_plain_mirror(material))
         return false;
     if (material->wgmd)
         return material->wgmd->may_mirror;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
-    return probe.specular_lobe == GRAZE_LOBE_MIRROR;
+    return probe.specular_lobe == GRAZE_LOBE_MIRROR && (material->modifiers || rgb_max(probe.specular) > FAINT);
 }
 
 bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
@@ -156,7 +165,7 @@ static int add_material(scene_builder *b, int modifier) {
     }
     made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection && !made.wgmd;
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || refracts(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(scene, &made) || refracts(&made);
     scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
     scene->has_refraction = scene->has_refraction || refracts(&made);
     return (int)scene->material_count++;
@@ -223,8 +232,12 @@ static void note_mirror(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
     const scene_material *m = &scene->materials[scene->surfaces[index].material];
     shape_kind kind = scene->shapes[index].kind;
-    if (m->emits || !m->plain || m->reflector.kind != GRAZE_MIRROR || (kind != SHAPE_POLYGON && kind != SHAPE_RING))
+    if (!scene_material_is_plain_mirror(m))
         return;
+    if (kind != SHAPE_POLYGON && kind != SHAPE_RING) {
+        scene->has_mirrors = true;
+        return;
+    }
     int *grown = realloc(scene->mirrors, (scene->mirror_count + 1) * sizeof *grown);
     if (!grown) {
         scene_fail(b, report_out_of_memory(b->report));

@@ -70,7 +70,7 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
 static void take_indirect(path *p, const vertex *v) {
     const path_indirect *known = p->context->indirect;
     const graze_trace_settings *s = p->context->settings;
-    if (!known || p->depth > 0 || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
+    if (!known || !path_is_at_first(p) || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
         return;
     rgb reflectance = rgb_scale(1 / PI, v->shading.diffuse);
     rgb value = rgb_multiply(reflectance, known->irradiance), error = rgb_multiply(reflectance, known->error);
@@ -174,9 +174,9 @@ static void follow(path *p, gathering *here) {
         rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
         p->radiance = rgb_add(p->radiance, found);
         observe_ray(p, v->point, &hit, found);
-        if (p->gloss && p->last.lobe == GRAZE_LOBE_GLOSSY)
+        if (p->gloss && !rgb_is_black(found))
             rare_gloss_find_met(p, v, &hit, found);
-        if (p->last.first)
+        if (p->last.first && !(p->gathering && p->last.refracted))
             p->direct = p->radiance;
         if (p->known.controls | p->known.watched)
             known_light_subtract_reflected(p, v, &hit, found);

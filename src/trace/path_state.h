@@ -37,6 +37,7 @@ typedef enum rare_gloss {
     RARE_GLOSS_NONE, /* it does not */
     RARE_GLOSS_FLAT,
     RARE_GLOSS_CURVED,
+    RARE_GLOSS_MIRROR, /* flat, and met by luck alone */
 } rare_gloss;
 
 typedef struct path {
