@@ -46,13 +46,25 @@ static double passage_chance(const path *p, rgb transmittance) {
     return p->depth + p->passages >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
+/* A source as wide as this is a sky. */
+#define SKY_HALF_ANGLE (PI / 6)
+
+static bool has_sky(const graze_scene *scene) {
+    for (size_t i = scene->first_source; i < scene->light_count; i++)
+        if (scene->lights[i].half_angle >= SKY_HALF_ANGLE)
+            return true;
+    return false;
+}
+
 /* Whether light is found by a lobe that may not go on, too: where Eq. 16 stands alone, and a gloss where it shares,
- * which light samples might miss; and what is refracted on its way no light sample finds. */
+ * which light samples might miss, as they mostly do a sky that is seen through windows; and what is refracted on its
+ * way no light sample finds. */
 static bool finds_lights(const path *p, graze_lobe lobe) {
     const graze_trace_settings *s = p->context->settings;
     const graze_scene *scene = p->context->scene;
     bool glossy = lobe == GRAZE_LOBE_GLOSSY || lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
-    bool shares = (s->strategy == GRAZE_STRATEGY_MIS && glossy) || scene->has_refraction;
+    bool shares = scene->has_refraction || (s->strategy == GRAZE_STRATEGY_MIS &&
+                                            (glossy || (p->indirect_known && p->depth == 0 && has_sky(scene))));
     return scene->light_count > 0 && (shares || !context_samples_lights(s));
 }
 
