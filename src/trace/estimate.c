@@ -45,6 +45,9 @@ static bool is_enough(const graze_trace_settings *s, uint32_t least, const estim
     double allowed = s->error * fmax(value, s->floor);
     rgb variance = evidence_variance(&found->evidence, laws_of_mean(taken));
     double unseen = estimate_unseen_gloss(&judge->rare, judge->taken, (double)taken * ESTIMATE_HALVES);
+    /* Lights in mirrors are found too seldom to wait for: what is missing of them is stated. */
+    if (judge->rare.by_mirrors && taken >= SEARCH_BELIEVED / ESTIMATE_HALVES)
+        unseen = 0;
     return rgb_max(variance) / ESTIMATE_HALVES + unseen * unseen <= allowed * allowed;
 }
 

@@ -208,7 +208,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = p->gathering = p->indirect_known = false;
     p->control_count = 0;
-    p->rare = (path_rare){0, 0, 0, 0};
+    p->rare = (path_rare){.times = 0};
 }
 
 static path_sample path_end(const path *p) {

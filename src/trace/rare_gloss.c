@@ -27,7 +27,8 @@ static bool is_rare(const vertex *v, double density) {
 }
 
 /* Notes what comes by one in 1/share of all cases. */
-static void expect(path *p, double expected, double share) {
+static void expect(path *p, const vertex *v, double expected, double share) {
+    p->rare.by_mirrors = p->rare.by_mirrors || v->shading.specular_lobe == GRAZE_LOBE_MIRROR;
     p->rare.times++;
     p->rare.expected += expected;
     p->rare.squares += expected * expected * (1 / share - 1);
@@ -44,7 +45,7 @@ void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, dou
         return;
     double often = fmax(expectation, 1.0 / p->context->scene->light_count);
     double cosine = vec3_dot(sample->direction, v->shading.n), times = 1 / (often * sample->density);
-    expect(p, brightness_by_gloss(p, v, sample) * times * cosine / PI, share_of_directions(v, sample->density));
+    expect(p, v, brightness_by_gloss(p, v, sample) * times * cosine / PI, share_of_directions(v, sample->density));
 }
 
 /* Whether light from the direction arrives at the body that a vertex belongs to: there, or else where a ray from there
@@ -84,7 +85,7 @@ static void expect_on_body(path *p, const vertex *v, int index) {
         return;
     double half = sqrt(fmax((1 + vec3_dot(sample.direction, v->shading.view)) / 2, 0));
     double share = spread(v) / 4 * fmax(half, 0.1) + 1 / (4 * PI * sample.density);
-    expect(p, brightness_by_gloss(p, v, &sample) / (4 * PI * sample.density), share);
+    expect(p, v, brightness_by_gloss(p, v, &sample) / (4 * PI * sample.density), share);
 }
 
 /* The lights in a flat mirror are not sampled, but looked at: each, or one of many. */
