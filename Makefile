@@ -230,8 +230,8 @@ test:
 	@BUILD=$(BUILD) BIN=$(BIN) MAKE=$(MAKE) test/run $(TEST_GROUPS)
 test: TEST_GROUPS = unit cli $(if $(filter no,$(PEER)),,peer)
 
-# bench: models beside libmvec, records and function files beside rcalc, rays, large scenes and pictures beside rtrace; BENCH=brdf, ... for one of these
-BENCH := brdf records cal rays load pictures
+# bench: models beside libmvec, records and function files beside rcalc, rays, large scenes and pictures beside rtrace, and what features cost; BENCH=brdf, ... for one of these
+BENCH := brdf records cal rays load features pictures
 bench:
 	@scripts/install-dependencies build test $(if $(filter pictures,$(BENCH)),figures)
 	@$(if $(filter-out brdf,$(BENCH)),scripts/install-peer)

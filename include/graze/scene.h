@@ -22,6 +22,12 @@ typedef struct graze_model_choice {
     graze_brdf_model model;
 } graze_model_choice;
 
+/* Definitions in the language of function files, for all of them to see. */
+typedef struct graze_definitions {
+    const char *text; /* null: those of a function file */
+    const char *file; /* its name, looked for along RAYPATH; with a text, what messages call that, or null */
+} graze_definitions;
+
 /* How a scene is to be built; all 0: as it stands in the description. */
 typedef struct graze_scene_settings {
     int threads;                      /* that the building itself may use, below 1 for 1; the scene does not depend on
@@ -31,8 +37,12 @@ typedef struct graze_scene_settings {
     size_t model_count;
     const char *const *ambient_modifiers; /* names of modifiers of surfaces */
     size_t ambient_modifier_count;
-    int ambient_modifiers_included; /* 0: on surfaces with one of these modifiers diffuse interreflection is not
-                                       computed: the ambient value stands for it. Else: on all others */
+    int ambient_modifiers_included;       /* 0: on surfaces with one of these modifiers diffuse interreflection is not
+                                             computed: the ambient value stands for it. Else: on all others (with no
+                                       modifier: on all) */
+    const graze_definitions *definitions; /* read first, in order, and seen by all of the scene's functions: a name's
+                                             later definition wins, but that of a function file itself over these */
+    size_t definition_count;
 } graze_scene_settings;
 
 /* Reads `count` descriptions as one, in order: each a .rad file, an octree, `!command`, or `-` for standard input;

@@ -78,8 +78,9 @@ typedef struct graze_hit {
     double distance;           /* GRAZE_FAR: nothing, or a source infinitely far away */
     graze_vec3 point;          /* on the surface; the origin where nothing was hit */
     graze_vec3 normal;         /* unit, on the surface's own front; null vector where nothing was hit */
-    graze_vec3 shading_normal; /* the same, perturbed by textures, or a mesh's; on the ray's side unless the surface
-                                  shines */
+    graze_vec3 shading_normal; /* the same, perturbed by textures (not for
+                                  GRAZE_IRRADIANCE_HIT), or a mesh's; on the ray's side unless the surface
+                                  shines, or is of a clear body */
     double uv[2];              /* texture coordinates of a mesh; else 0 */
 } graze_hit;
 
@@ -95,7 +96,8 @@ typedef struct graze_answer {
     int converged;            /* 0: sample_limit was reached before the error asked for */
 } graze_answer;
 
-/* Where a ray goes, without any light. The ray must be finite, its direction not null: else `hit` is of nothing. */
+/* Where a ray goes, without any light. The ray must be finite, its direction not null: else `hit` is of nothing, and so
+ * it is for GRAZE_IRRADIANCE. */
 GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
                           graze_hit *hit);
 

@@ -70,6 +70,10 @@ static inline double vec3_safe_length(vec3 a) {
 }
 /* a / |a| for components of any finite size; the null vector where a is null or not finite. */
 static inline vec3 vec3_safe_normalize(vec3 a) {
+    double length2 = vec3_dot(a, a);
+    /* As nearly always: faster, and as exact. */
+    if (length2 > 1e-250 && length2 < 1e250)
+        return vec3_scale(1 / sqrt(length2), a);
     double most = vec3_max_abs(a);
     return most > 0 ? vec3_normalize((vec3){a.x / most, a.y / most, a.z / most}) : (vec3){0, 0, 0};
 }

@@ -1,4 +1,5 @@
-/* Skies and lamps: CIE's skies as gensky asks for them, Perez's as gendaylit does, and the photometry of ies2rad. */
+/* Skies, lamps and windows: CIE's skies as gensky asks for them, Perez's as gendaylit does, the photometry of ies2rad,
+ * and the distributions of mkillum. */
 #include "cal/own_files.h"
 
 #include <stddef.h>
@@ -35,9 +36,16 @@ static const char source[] = "corr(v) = if(AC - .5, A1*v, v); flatcorr(v) = corr
                              "srcB_vert = atan2(-Dx, Dz)/DEGREE; srcB_horiz = atan2(Dy, Dz)/DEGREE;"
                              "srcB_vert2 = abs(srcB_vert); srcB_horiz2 = abs(srcB_horiz);";
 
+/* Where in a distribution of light a ray finds itself: of a sphere the height of its direction and the angle about z
+ * from x; of a flat illum the square of its cosine with the normal, A7 .. A9, and the angle against it from A1 .. A3
+ * towards A4 .. A6. Angles are in 0 .. 2 PI. */
+static const char illum[] = "turn(angle) = if(angle, angle, angle + 2*PI); against(x, y, z) = -(Dx*x + Dy*y + Dz*z);"
+                            "il_alt = Dz; il_azi = turn(Atan2(Dy, Dx)); il_alth = against(A7, A8, A9)^2;"
+                            "il_azih = turn(Atan2(against(A4, A5, A6), against(A1, A2, A3)));";
+
 static const struct {
     const char *name, *text;
-} files[] = {{"perezlum", perezlum}, {"skybright", skybright}, {"source", source}};
+} files[] = {{"perezlum", perezlum}, {"skybright", skybright}, {"source", source}, {"illum", illum}};
 
 const char *cal_own_file(const char *name) {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {

@@ -164,6 +164,11 @@ graze_status cal_program_use_file(cal_program *program, const char *name, const 
     return file->status = read_file(program, context, name, finder, where, report);
 }
 
+graze_status cal_program_add_file(cal_program *program, const char *name, const cal_finder *finder, const place *where,
+                                  const graze_report *report) {
+    return read_file(program, "", name, finder, where, report);
+}
+
 uint64_t cal_program_fingerprint(const cal_program *program) {
     return program->fingerprint;
 }

@@ -85,6 +85,10 @@ graze_status cal_program_add_text(cal_program *, const char *file, const char *t
 graze_status cal_program_use_file(cal_program *, const char *name, const cal_finder *, const place *where,
                                   const graze_report *);
 
+/* The same, but into the outermost context: what the file defines is seen by all others. */
+graze_status cal_program_add_file(cal_program *, const char *name, const cal_finder *, const place *where,
+                                  const graze_report *);
+
 /* A number (base/fingerprint.h) of all the text that was read, and of the contexts that it was read into. */
 uint64_t cal_program_fingerprint(const cal_program *);
 

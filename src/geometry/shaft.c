@@ -175,6 +175,8 @@ static geometry_visibility look_through(shaft *s, const geometry *g, const shaft
 
 geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *sight) {
     shaft s;
+    if (!g->trees[0].scene)
+        return GEOMETRY_CLEAR;
     if (!g->sights.nodes && !g->copied_sights.nodes)
         return GEOMETRY_MIXED;
     shaft_kind kind = shaft_make(&s, g, sight);

@@ -20,7 +20,8 @@ typedef struct geometry_sight {
     double half_angle; /* radians */
 } geometry_sight;
 
-/* Prepares a geometry for the questions below. Without that all their answers are MIXED and true. */
+/* Prepares a geometry for the questions below. Without that all their answers are MIXED and true, but where there are
+ * no surfaces at all. */
 graze_status geometry_prepare_sights(geometry *, const graze_report *);
 
 /* Agrees with what geometry_occluded says of rays from the point to the light's front, above the horizon: it is false

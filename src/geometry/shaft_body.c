@@ -234,11 +234,37 @@ static bool ball_closes(const shaft *s, vec3 unit, double distance, double radiu
     return true;
 }
 
+/* How far the light is from a point at the least, and at the most; the former only as far as one plane tells. */
+static shaft_span light_distances(const shaft *s, vec3 from) {
+    vec3 middle = s->ball_radius > 0 ? s->ball_center
+                  : s->round         ? s->center
+                                     : vec3_scale(0.5, vec3_add(s->corners[0], s->corners[s->corner_count / 2]));
+    vec3 away = vec3_subtract(middle, from), unit = vec3_safe_normalize(away);
+    shaft_span distances = {surface_span(s, unit).low - vec3_dot(unit, from), 0};
+    if (s->ball_radius > 0)
+        distances.high = vec3_length(away) + s->ball_radius;
+    for (int i = 0; i < s->corner_count && s->ball_radius == 0; i++)
+        distances.high = double_max(distances.high, vec3_length(vec3_subtract(s->corners[i], from)));
+    return distances;
+}
+
+/* The light is inside and the point is not, or the other way round: a ball has no gap. */
+static bool ball_parts(const shaft *s, vec3 center, double distance, double radius) {
+    double margin = 4 * s->near;
+    bool outside = distance > radius + margin;
+    if (!outside && !(distance < radius - margin))
+        return false;
+    shaft_span light = light_distances(s, center);
+    return outside ? light.high < radius - margin : light.low > radius + margin;
+}
+
 static geometry_visibility meet_sphere(const shaft *s, const shape *ball, int surface) {
     vec3 center = vec3_subtract(ball->sphere.center, s->sight->point);
     double distance = vec3_length(center), radius = ball->sphere.radius;
     if (body_is_beside(s, ball, surface))
         return GEOMETRY_CLEAR;
+    if (surface != s->sight->from && ball_parts(s, center, distance, radius))
+        return GEOMETRY_BLOCKED;
     if (distance <= radius + s->tolerance || surface == s->sight->from)
         return ball_holds(s, ball, surface, distance) ? GEOMETRY_CLEAR : GEOMETRY_MIXED;
     vec3 unit = vec3_scale(1 / distance, center);

@@ -136,25 +136,38 @@ static bool view_as_rectangle(view_rectangle *r, shape_rectangle *room, const sh
     return r->solid_angle > 1e-5;
 }
 
+/* How far the distance along the drawn direction may be taken for the length of what leads there: the sine of the
+ * elevation, and how many times farther the first corner may be, for roundings to stay below 1e-14. */
+#define TAME_SINE   0.8
+#define TAME_CORNER 2.0
+
 /* After C. Urena, M. Fajardo and A. King, "An area-preserving parametrization for spherical rectangles", 2013, with an
  * inversion of our own: with X = x/|(x, height)| and Y_i = y_i/|(y_i, height)| the solid angle between the lines 0 and
  * x is asin(X Y1) - asin(X Y0), and setting that to tau gives X = sin(tau) / sqrt(Y0^2 + Y1^2 - 2 Y0 Y1 cos(tau)).
  * Numerator and denominator are multiplied by both lengths, and tau is turned on from where it starts. */
-static vec3 draw_rectangle(const view_rectangle *r, double u, double v) {
+static solid_angle_sample draw_rectangle(const view_rectangle *r, double u, double v) {
     const shape_rectangle *sides = r->sides;
     double h = r->height, both = r->reach0 * r->reach1, turn = u * r->solid_angle;
     complex_number tau = times(r->start, (complex_number){cos(turn), sin(turn)});
     double size = (r->x0 * r->x0 + h * h) * both; /* of `start` */
     double sine = both * tau.im / size, cosine = tau.re / size;
-    double a = r->y0 * r->reach1, b = r->y1 * r->reach0, rest = a * a + b * b - 2 * a * b * cosine - sine * sine;
-    double x = rest > 0 ? h * sine / sqrt(rest) : sine > 0 ? r->x1 : r->x0;
-    x = solid_angle_clamp(x, r->x0, r->x1);
+    double a = r->y0 * r->reach1, b = r->y1 * r->reach0, side2 = a * a + b * b - 2 * a * b * cosine;
+    double rest = side2 - sine * sine, x = rest > 0 ? h * sine / sqrt(rest) : sine > 0 ? r->x1 : r->x0;
+    /* x^2 + h^2, without waiting for the root where x is not on an edge */
+    double reach2 = h * h * side2 / rest;
+    if (!(x > r->x0 && x < r->x1)) {
+        x = solid_angle_clamp(x, r->x0, r->x1);
+        reach2 = x * x + h * h;
+    }
     /* On the line x the sine of the elevation in y's direction uniformly. */
-    double reach2 = x * x + h * h;
     double y0 = r->y0 / sqrt(r->y0 * r->y0 + reach2), y1 = r->y1 / sqrt(r->y1 * r->y1 + reach2);
     double y_sine = y0 + v * (y1 - y0);
-    double y = solid_angle_clamp(y_sine * sqrt(reach2 / ((1 - y_sine) * (1 + y_sine))), r->y0, r->y1);
-    return vec3_add_scaled(vec3_add_scaled(r->corner, x - r->x0, sides->x), y - r->y0, sides->y);
+    double cosine2 = (1 - y_sine) * (1 + y_sine), distance2 = reach2 / cosine2, distance = sqrt(distance2);
+    double y = solid_angle_clamp(y_sine * distance, r->y0, r->y1);
+    vec3 to_point = vec3_add_scaled(vec3_add_scaled(r->corner, x - r->x0, sides->x), y - r->y0, sides->y);
+    if (fabs(y_sine) < TAME_SINE && vec3_dot(r->corner, r->corner) < TAME_CORNER * TAME_CORNER * distance2)
+        return (solid_angle_sample){vec3_scale(1 / distance, to_point), distance, 1 / r->solid_angle};
+    return solid_angle_sample_at(to_point, 1 / r->solid_angle);
 }
 
 double solid_angle_polygon(const shape *s, vec3 from) {
@@ -215,6 +228,6 @@ solid_angle_sample solid_angle_polygon_draw(const shape *s, vec3 from, double u,
     view_rectangle r;
     shape_rectangle room;
     if (view_as_rectangle(&r, &room, s, from))
-        return solid_angle_sample_at(draw_rectangle(&r, u, v), 1 / r.solid_angle);
+        return draw_rectangle(&r, u, v);
     return draw_triangles(s, from, u, v);
 }

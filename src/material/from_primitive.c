@@ -243,8 +243,8 @@ static graze_status read_mirror(graze_material *m, const rad_primitive *p, const
         status = check_signs(p, report);
     if (status != GRAZE_OK)
         return status;
-    if (p->string_count > 0)
-        return rad_primitive_error(report, p, "an alternate material of a mirror is not supported yet");
+    if (p->string_count > 1)
+        return rad_primitive_error(report, p, "needs 1 string argument at most, not %u", (unsigned)p->string_count);
     if (rgb_max((rgb){p->reals[0], p->reals[1], p->reals[2]}) > 1)
         rad_primitive_warning(report, p, "unphysical: a colour above 1 reflects more light than it receives");
     *m = (graze_material){.kind = GRAZE_MIRROR, .color = {p->reals[0], p->reals[1], p->reals[2]}};

@@ -84,6 +84,17 @@ static graze_status need_program(material_library *library) {
     return cal_program_add_scene_names(library->program, &library->report);
 }
 
+graze_status material_library_define(material_library *library, const char *text, const char *file) {
+    const cal_finder finder = {find_file, library};
+    graze_status status = need_program(library);
+    if (status)
+        return status;
+    if (!text)
+        return cal_program_add_file(library->program, file, &finder, NULL, &library->report);
+    const place where = {.file = file};
+    return cal_program_add_text(library->program, NULL, text, strlen(text), &where, &library->report);
+}
+
 graze_status material_library_use_file(material_library *library, const char *file, const rad_primitive *p) {
     const cal_finder finder = {find_file, library};
     rad_primitive_name owner;

@@ -24,6 +24,9 @@ const graze_report *material_library_report(const material_library *);
 /* Lives as long as the library. */
 arena *material_library_memory(material_library *);
 
+/* Definitions that all function files see, before any of these is used: a text, which messages call by `file`, or where
+ * it is null the function file of that name. */
+graze_status material_library_define(material_library *, const char *text, const char *file);
 /* The definitions of function files; with those that every scene has. The files are read when they are first asked for;
  * null and "." stand for none. */
 graze_status material_library_use_file(material_library *, const char *file, const rad_primitive *);

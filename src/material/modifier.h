@@ -61,6 +61,9 @@ material_effect material_modify(const material_modifier *, const material_ray *)
 /* How many pixels the largest picture has that a chain looks at, or values the largest data; 0: none. */
 size_t material_modifiers_pixels(const material_modifier *);
 
+/* Whether there are textures among them. */
+bool material_modifiers_lean(const material_modifier *);
+
 /* The share of the foreground in a mixture, 0 .. 1. False: a compute error, of which the user is told once. */
 bool material_mixture_share(const material_modifier *, const material_ray *, double *share);
 

@@ -107,6 +107,15 @@ size_t material_modifiers_pixels(const material_modifier *first) {
     return most;
 }
 
+bool material_modifiers_lean(const material_modifier *first) {
+    for (const material_modifier *m = first; m; m = m->next)
+        if (m->kind == MATERIAL_TEXTURE ||
+            (m->kind == MATERIAL_MIXTURE &&
+             (material_modifiers_lean(m->fore_modifiers) || material_modifiers_lean(m->back_modifiers))))
+            return true;
+    return false;
+}
+
 vec3 material_perturbed_normal(vec3 normal, vec3 perturbation, vec3 direction) {
     if (!(vec3_dot(perturbation, perturbation) > NOTHING * NOTHING))
         return normal;

@@ -76,15 +76,16 @@ static bool cast_at(pixel *p, const path_context *context, const camera_sample *
 }
 
 /* One sample of what is seen there, where p->first is. */
-static path_sample sample_at(const pixel *p, path_context *context, const camera_sample *at, sampler *points) {
+static void sample_at(const pixel *p, path_context *context, const camera_sample *at, sampler *points,
+                      path_sample *sample) {
     path_indirect known;
     if (p->shared && shared_light_at(p->picture->shared, p->shared, &p->first, at->x - camera_center.x,
                                      at->y - camera_center.y, &known))
         context->indirect = &known;
-    return path_radiance(context, &p->first, points);
+    path_radiance(context, &p->first, points, sample);
 }
 
-static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck) {
+static void sample_pixel(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     pixel *p = user;
     path_context context = context_of(p);
     camera_sample at = camera_center;
@@ -93,14 +94,15 @@ static path_sample sample_pixel(void *user, sampler *points, estimate_luck *luck
         bool spread = sample_camera(&p->picture->settings, points, &at);
         if (spread)
             *luck = ESTIMATE_PLACE;
-        if (!cast_at(p, &context, &at))
-            return (path_sample){.noisy = false};
+        if (!cast_at(p, &context, &at)) {
+            *sample = (path_sample){.noisy = false};
+            return;
+        }
         p->cast = !spread;
     }
-    path_sample sample = sample_at(p, &context, &at, points);
-    if (sample.noisy)
-        *luck = sample.searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
-    return sample;
+    sample_at(p, &context, &at, points, sample);
+    if (sample->noisy)
+        *luck = sample->searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
 }
 
 /* What one sample finds in the pixel's corner. */
@@ -115,7 +117,8 @@ static rgb look_at_corner(const pixel *p, int corner, path_memory *memory) {
     if (!cast_at(&there, &context, &at))
         return rgb_gray(0);
     sampler points = sampler_start(sampler_key(p->picture->trace.seed, p->number, CORNER_NUMBERS), (uint32_t)corner);
-    path_sample sample = sample_at(&there, &context, &at, &points);
+    path_sample sample;
+    sample_at(&there, &context, &at, &points, &sample);
     for (int k = 0; k < sample.control_count; k++)
         sample.radiance = rgb_add(sample.radiance, sample.controls[k].difference);
     return sample.radiance;
@@ -127,7 +130,8 @@ static bool has_edge(void *user, uint32_t samples, double allowed) {
     const pixel *p = user;
     if (p->picture->settings.aperture > 0 || p->picture->settings.shutter > 0)
         return true;
-    path_memory memory = {.alike = false};
+    path_memory memory;
+    path_memory_begin(&memory, false);
     rgb least = look_at_corner(p, 0, &memory), most = least;
     for (int corner = 1; corner < 4; corner++) {
         rgb found = look_at_corner(p, corner, &memory);
@@ -146,7 +150,8 @@ static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *s
     uint64_t width = (uint64_t)p->picture->settings.width, height = (uint64_t)p->picture->settings.height;
     uint64_t number = ((uint64_t)numbers * height + (uint64_t)p->row) * width + (uint64_t)p->column;
     graze_answer answer;
-    path_memory known = {.alike = !is_spread(&p->picture->settings)};
+    path_memory known;
+    path_memory_begin(&known, !is_spread(&p->picture->settings));
     pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .number = number, .memory = &known};
     shared_pixel shared;
     if (p->picture->shared && shared_light_find(p->picture->shared, p->column, p->row, &shared))

@@ -52,11 +52,13 @@ static bool look(const shared_light *s, int column, int row, irradiance_record *
 }
 
 static void gather(const shared_light *s, uint64_t key, record *r) {
-    path_memory memory = {.alike = true};
+    path_memory memory;
+    path_memory_begin(&memory, true);
     const path_context context = {.scene = s->scene, .settings = s->trace, .cache = s->cache, .memory = &memory};
     for (uint32_t i = 0; i < s->rays; i++) {
         sampler points = sampler_start(key, i);
-        path_sample sample = path_indirect_at(&context, &r->place, &points);
+        path_sample sample;
+        path_indirect_at(&context, &r->place, &points, &sample);
         r->irradiance = rgb_add_scaled(r->irradiance, 1.0 / s->rays, sample.indirect);
         for (int k = 0; k < IRRADIANCE_PARTS && sample.cached; k++)
             r->told[k] = rgb_add_scaled(r->told[k], 1.0 / s->rays, sample.told[k]);

@@ -457,6 +457,10 @@ graze_status rad_reader_standard_input(rad_reader *reader, const rad_context *co
     static const char name[] = "standard input";
     whole_file text;
     graze_status got = whole_file_read(&text, STDIN_FILENO, name, context->parent, reader->report);
+    /* What should have written it has most likely failed. */
+    if (!got && text.length == 0)
+        got =
+            report_error(reader->report, &(place){.file = name, .parent = context->parent}, "there is no scene on it");
     return read_got(reader, got, &text, name, context, sink);
 }
 

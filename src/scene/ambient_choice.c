@@ -21,8 +21,6 @@ void scene_check_ambient(const graze_scene_settings *settings, const rad_primiti
 
 bool scene_leaves_ambient_out(const graze_scene_settings *settings, const char *modifier) {
     bool listed = false;
-    if (settings->ambient_modifier_count == 0)
-        return false;
     for (size_t i = 0; i < settings->ambient_modifier_count && !listed; i++)
         listed = strcmp(settings->ambient_modifiers[i], modifier) == 0;
     return listed != (settings->ambient_modifiers_included != 0);

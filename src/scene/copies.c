@@ -4,17 +4,17 @@
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
 
-/* A light that only is seen: in copies there are no others, as in Radiance. Made once for each material; its number, or
- * -1 where it is black. */
-static int seen_light(scene_builder *b, int material, const shape *s, const rad_primitive *surface) {
+/* A light that only is seen: in copies and mixtures there are no others, as in Radiance. Made once for each material;
+ * its number, or -1 where it is black. */
+static int seen_light(scene_builder *b, int material, const shape *s, const rad_primitive *surface, bool mixed) {
     graze_scene *scene = b->scene;
     scene_material *m = &scene->materials[material];
     if (m->seen_light >= 0 || rgb_is_black(m->light.radiance))
         return m->seen_light;
     if (!m->light.glow || m->light.glow_radius > 0)
-        rad_primitive_warning(
-            b->report, surface,
-            "shines, but lights nothing: what is in an octree or a mesh is seen only, as in Radiance");
+        rad_primitive_warning(b->report, surface,
+                              "shines, but lights nothing: what is in %s is seen only, as in Radiance",
+                              mixed ? "a mixture" : "an octree or a mesh");
     m->seen_light = (int)(scene->light_count + scene->seen_light_count++);
     scene_light *light = &scene->lights[m->seen_light];
     *light = m->light;
@@ -25,15 +25,26 @@ static int seen_light(scene_builder *b, int material, const shape *s, const rad_
     return m->seen_light;
 }
 
+void scene_add_mixed_lights(scene_builder *b) {
+    graze_scene *scene = b->scene;
+    for (size_t i = 0; b->mixed_lights && i < scene->surface_count; i++) {
+        scene_surface *surface = &scene->surfaces[i];
+        const scene_material *m = &scene->materials[surface->material];
+        if (m->kind == SCENE_MIXTURE && m->shining >= 0)
+            surface->light = seen_light(b, m->shining, &scene->shapes[i], &scene->primitives[surface->primitive], true);
+    }
+}
+
 /* `user` is told of in messages. */
 static scene_surface make_surface(scene_builder *b, int primitive, int material, const shape *s,
                                   const rad_primitive *user) {
     graze_scene *scene = b->scene;
-    scene->has_mirrors = scene->has_mirrors || scene_material_is_plain_mirror(&scene->materials[material]);
+    const int shining = scene_material_shining(scene, material);
+    scene->has_mirrors = scene->has_mirrors || scene_material_shows_lights(&scene->materials[material]);
     return (scene_surface){
         .primitive = primitive,
         .material = material,
-        .light = scene->materials[material].emits ? seen_light(b, material, s, user) : -1,
+        .light = shining >= 0 ? seen_light(b, shining, s, user, false) : -1,
         .no_ambient = scene_leaves_ambient_out(b->settings, scene_modifier_name(scene, primitive)),
     };
 }
@@ -88,7 +99,7 @@ static void add_triangle(scene_builder *b, scene_part *part, vec3 *vertices, siz
     int material = scene_material_of_surface(b, p);
     if (material < 0)
         return;
-    s->shines = b->scene->materials[material].emits;
+    s->shines = scene_material_emits(&b->scene->materials[material]);
     s->passes = scene_material_is_pane(b->scene, &b->scene->materials[material]);
     part->surfaces[index] = make_surface(b, primitive, material, s, p);
 }
@@ -121,7 +132,8 @@ static void replace_materials(scene_builder *b, scene_copy *copy, int primitive,
     if (material < 0)
         return;
     const scene_material *m = &scene->materials[material];
-    if (in_scene && m->emits && !rgb_is_black(m->light.radiance) && !(m->light.glow && m->light.glow_radius <= 0))
+    if (in_scene && scene_material_emits(m) && !rgb_is_black(m->light.radiance) &&
+        !(m->light.glow && m->light.glow_radius <= 0))
         scene_fail(b, rad_primitive_error(b->report, p, "%s cannot be lights: its modifier is one",
                                           p->type == RAD_MESH ? "meshes" : "instances"));
     else

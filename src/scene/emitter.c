@@ -1,4 +1,4 @@
-/* The arguments of light, glow and spotlight. */
+/* The arguments of light, illum, glow and spotlight. */
 #include "scene/emitter.h"
 
 #include "base/angle.h"
@@ -26,15 +26,15 @@ graze_status emitter_to_light(scene_light *light, const rad_primitive *material,
     static const struct {
         rad_type type;
         uint32_t reals;
-    } shapes[] = {{RAD_LIGHT, 3}, {RAD_GLOW, 4}, {RAD_SPOTLIGHT, 7}};
+    } shapes[] = {{RAD_LIGHT, 3}, {RAD_ILLUM, 3}, {RAD_GLOW, 4}, {RAD_SPOTLIGHT, 7}};
     uint32_t expected = 0;
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         if (shapes[i].type == material->type)
             expected = shapes[i].reals;
-    if (expected == 0)
-        return rad_primitive_error(report, material, "%s is not supported yet", rad_type_name(material->type));
-    if (material->real_count != expected || material->string_count != 0)
-        return rad_primitive_error(report, material, "expected 0 strings and %u reals, found %u and %u", expected,
+    light->secondary = material->type == RAD_ILLUM;
+    if (material->real_count != expected || material->string_count > light->secondary)
+        return rad_primitive_error(report, material, "expected %s and %u reals, found %u and %u",
+                                   light->secondary ? "1 string at most" : "0 strings", expected,
                                    material->string_count, material->real_count);
     const double *a = material->reals;
     if (!(a[0] >= 0 && a[1] >= 0 && a[2] >= 0))

@@ -1,10 +1,10 @@
-/* Materials that shine: light, glow, spotlight. */
+/* Materials that shine: light, illum, glow, spotlight. */
 #ifndef SCENE_EMITTER_H
 #define SCENE_EMITTER_H
 
 #include "scene/scene.h"
 
-/* Whether the primitive is a material that shines (illum included, which emitter_to_light refuses). */
+/* Whether the primitive is a material that shines. */
 bool emitter_is(rad_type);
 
 /* Fills in what the material says of a light: radiance, glow, spot. */

@@ -36,12 +36,6 @@ static rgb within_range(rgb a) {
                  fmin(fmax(a.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
-rgb light_patterned_for(const scene_light *light, rgb radiance, const material_ray *ray) {
-    if (!light->modifiers || rgb_is_black(radiance))
-        return radiance;
-    return within_range(rgb_multiply(radiance, material_modify(light->modifiers, ray).color));
-}
-
 rgb light_pattern_radiance(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal,
                            double distance, double travelled) {
     if (rgb_is_black(radiance))
@@ -51,7 +45,7 @@ rgb light_pattern_radiance(const scene_light *light, rgb radiance, vec3 point, v
                               .normal = light->shape ? normal : vec3_negate(direction),
                               .distance = travelled + distance,
                               .last_distance = distance};
-    return light_patterned_for(light, radiance, &ray);
+    return within_range(rgb_multiply(radiance, material_modify(light->modifiers, &ray).color));
 }
 
 /* 1 - cos of the angle between unit vectors is |a - b|^2 / 2: exact for the sun's small angles. */
@@ -66,6 +60,13 @@ int light_source_towards(const graze_scene *scene, vec3 direction) {
         if (source_contains(&scene->lights[i], direction))
             return (int)i;
     return -1;
+}
+
+bool light_source_shines_from(const graze_scene *scene, int index, vec3 direction) {
+    const scene_light *light = &scene->lights[index];
+    if (light->glow && !light->alone)
+        return light_source_towards(scene, direction) == index;
+    return source_contains(light, direction);
 }
 
 static light_sample draw_shape(const scene_light *light, int index, vec3 point, double travelled,
@@ -96,7 +97,7 @@ light_sample light_draw(const graze_scene *scene, vec3 point, double travelled, 
         sample.direction = solid_angle_draw_cone(light->center, light->half_angle, random[0], random[1]);
         sample.density = 1 / solid_angle_of_cone(light->half_angle);
     }
-    if (light_source_towards(scene, sample.direction) != index)
+    if (light->glow && !light->alone && light_source_towards(scene, sample.direction) != index)
         return sample;
     sample.light = index;
     sample.radiance =

@@ -4,6 +4,12 @@
 
 #include "scene/scene.h"
 
+/* Whether the light shines through the front of an illum, which stands for what is behind it: glows and other illums.
+ */
+static inline bool light_is_proper(const graze_scene *scene, int light) {
+    return !scene->lights[light].glow && !scene->lights[light].secondary;
+}
+
 /* The role of a light for a point at `distance` (GEOMETRY_FAR for sources). */
 light_role light_role_at(const scene_light *, double distance);
 
@@ -32,6 +38,10 @@ static inline rgb light_patterned(const scene_light *light, rgb radiance, vec3 p
  * scene's order, else the first `glow`. */
 int light_source_towards(const graze_scene *, vec3 direction);
 
+/* Whether points get light of the source from this direction: of every `light` that is there, also where only the first
+ * of them is seen; of a `glow` where it is. As in Radiance, for which `light`s are sampled and `glow`s are met. */
+bool light_source_shines_from(const graze_scene *, int source, vec3 direction);
+
 typedef struct light_sample {
     int light;       /* -1: the light's front is not seen from the point */
     vec3 direction;  /* unit, towards the light */
@@ -39,9 +49,6 @@ typedef struct light_sample {
     double density;  /* per unit solid angle */
     rgb radiance;
 } light_sample;
-
-/* The same for a ray as the light's patterns know it. */
-rgb light_patterned_for(const scene_light *, rgb radiance, const material_ray *);
 
 /* Draws a direction from the point, which is `travelled` away from the eye, towards a light, by two numbers in
  * [0,1). */

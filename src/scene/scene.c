@@ -5,7 +5,6 @@
 
 #include "base/angle.h"
 #include "geometry/shaft.h"
-#include "material/from_primitive.h"
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
 #include "scene/emitter.h"
@@ -40,152 +39,6 @@ void scene_fail(scene_builder *b, graze_status status) {
         b->status = status;
 }
 
-/* A failure that is told once, where the material is first used. */
-#define MATERIAL_REFUSED (-2)
-
-/* A mirror that reflects no more than this straight on, as glass and varnish do, is faint: of the lights in it, much
- * less comes than straight from the lights. */
-#define FAINT 0.1
-
-/* Whether reflections in a material may bring much light that no light sample finds. Of a flat `mirror`, lights are
- * sampled; others of that material are found among the surfaces. */
-static bool is_mirror(const graze_scene *scene, const scene_material *material) {
-    const vec3 normal = {0, 0, 1};
-    graze_surface probe;
-    if (material->mixture)
-        return scene_material_is_plain_mirror(&scene->materials[material->fore]) ||
-               scene_material_is_plain_mirror(&scene->materials[material->back]);
-    if (material->emits || material->reflection || scene_material_is_plain_mirror(material))
-        return false;
-    if (material->wgmd)
-        return material->wgmd->may_mirror;
-    graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
-    return probe.specular_lobe == GRAZE_LOBE_MIRROR && (material->modifiers || rgb_max(probe.specular) > FAINT);
-}
-
-bool scene_material_is_pane(const graze_scene *scene, const scene_material *material) {
-    if (material->mixture)
-        return scene_material_is_pane(scene, &scene->materials[material->fore]) ||
-               scene_material_is_pane(scene, &scene->materials[material->back]);
-    return !material->emits && !material->reflection && !material->wgmd &&
-           !rgb_is_black(graze_material_straight_through(&material->reflector, 1));
-}
-
-static bool refracts(const scene_material *material) {
-    return !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
-}
-
-static int material_of(scene_builder *, int modifier);
-
-static graze_status need_modifiers(scene_builder *b) {
-    graze_scene *scene = b->scene;
-    if (!scene->modifiers)
-        scene->modifiers = material_modifiers_create(scene->primitives, scene->primitive_count, b->report);
-    return scene->modifiers ? GRAZE_OK : report_out_of_memory(b->report);
-}
-
-/* The chain of a modifier; all that is needed for patterns is made when the first is met. */
-static graze_status find_chain(scene_builder *b, int modifier, material_chain *chain) {
-    graze_scene *scene = b->scene;
-    const rad_primitive *p = &scene->primitives[modifier];
-    *chain = (material_chain){.material = modifier};
-    if (p->modifier == RAD_VOID && p->type < RAD_TEXFUNC)
-        return GRAZE_OK;
-    graze_status status = need_modifiers(b);
-    if (status)
-        return status;
-    status = material_chain_find(chain, scene->modifiers, modifier);
-    if (!status && chain->material == RAD_VOID)
-        return rad_primitive_error(b->report, p, "there is no material behind it");
-    return status;
-}
-
-/* Both materials of a mixture. */
-static graze_status read_mixture(scene_builder *b, scene_material *material, const material_modifier *mixture) {
-    const rad_primitive *p = mixture->primitive;
-    if (mixture->fore == RAD_VOID || mixture->back == RAD_VOID)
-        return rad_primitive_error(b->report, p, "a mixture of a material with void is not supported yet");
-    material->mixture = mixture;
-    material->fore = material_of(b, mixture->fore);
-    material->back = material_of(b, mixture->back);
-    if (material->fore < 0 || material->back < 0)
-        return b->status;
-    const scene_material *fore = &b->scene->materials[material->fore], *back = &b->scene->materials[material->back];
-    if (fore->emits || back->emits)
-        return rad_primitive_error(b->report, p, "a mixture with a material that shines is not supported");
-    if (refracts(fore) || refracts(back))
-        return rad_primitive_error(b->report, p, "a mixture with a dielectric is not supported");
-    return GRAZE_OK;
-}
-
-static graze_status read_material(scene_builder *b, scene_material *material, const rad_primitive *p) {
-    material->emits = emitter_is(p->type);
-    if (material->emits) {
-        graze_status status = emitter_to_light(&material->light, p, b->report);
-        material->light.modifiers = material->modifiers;
-        return status;
-    }
-    if (material_reflects_by_function(p->type)) {
-        graze_status status = need_modifiers(b);
-        if (status)
-            return status;
-        return material_reflection_compile(&material->reflection, material_modifiers_library(b->scene->modifiers), p);
-    }
-    if (p->type == RAD_WGMDFUNC) {
-        graze_status status = need_modifiers(b);
-        if (status)
-            return status;
-        material->reflector.model = scene_choose_model(b->settings, p);
-        return material_wgmd_compile(&material->wgmd, b->scene->modifiers, p);
-    }
-    graze_status status = material_from_primitive(&material->reflector, p, b->report);
-    material->reflector.model = scene_choose_model(b->settings, p);
-    if (status || !material_orients_by_function(p))
-        return status;
-    status = need_modifiers(b);
-    if (status)
-        return status;
-    return material_orientation_compile(&material->orientation, material_modifiers_library(b->scene->modifiers), p);
-}
-
-static int add_material(scene_builder *b, int modifier) {
-    graze_scene *scene = b->scene;
-    material_chain chain;
-    scene_material made = {.seen_light = -1, .fore = -1, .back = -1};
-    graze_status status = find_chain(b, modifier, &chain);
-    if (!status) {
-        made.primitive = chain.material;
-        made.modifiers = chain.modifiers;
-        status = chain.mixture ? read_mixture(b, &made, chain.mixture)
-                               : read_material(b, &made, &scene->primitives[chain.material]);
-    }
-    if (status != GRAZE_OK) {
-        scene_fail(b, status);
-        return MATERIAL_REFUSED;
-    }
-    made.plain = !made.emits && !made.modifiers && !made.mixture && !made.orientation && !made.reflection && !made.wgmd;
-    scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(scene, &made) || refracts(&made);
-    scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
-    scene->has_refraction = scene->has_refraction || refracts(&made);
-    return (int)scene->material_count++;
-}
-
-/* The material of a modifier, or a negative number where it has none that can be used (reported). */
-static int material_of(scene_builder *b, int modifier) {
-    if (b->material_of[modifier] == -1)
-        b->material_of[modifier] = add_material(b, modifier);
-    return b->material_of[modifier];
-}
-
-int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
-    if (surface->modifier == RAD_VOID) {
-        scene_fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
-        return MATERIAL_REFUSED;
-    }
-    return material_of(b, surface->modifier);
-}
-
 static int threads_of(const scene_builder *b) {
     return b->settings->threads > 1 ? b->settings->threads : 1;
 }
@@ -199,8 +52,7 @@ static void add_light(scene_builder *b, scene_light light) {
 static void check_orientation(const scene_builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
     bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->emits || material->mixture || material->orientation || material->reflection ||
-        material->wgmd || !material->reflector.has_orientation)
+    if (!flat || material->kind != SCENE_REFLECTOR || !material->reflector.has_orientation)
         return;
     vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
     graze_surface probe;
@@ -222,7 +74,7 @@ int scene_read_shape(scene_builder *b, int primitive, shape *s) {
     if (status != GRAZE_OK || degenerate || material < 0)
         return -1;
     check_orientation(b, p, s, &scene->materials[material]);
-    s->shines = scene->materials[material].emits;
+    s->shines = scene_material_emits(&scene->materials[material]);
     s->passes = scene_material_is_pane(scene, &scene->materials[material]);
     return material;
 }
@@ -232,7 +84,7 @@ static void note_mirror(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
     const scene_material *m = &scene->materials[scene->surfaces[index].material];
     shape_kind kind = scene->shapes[index].kind;
-    if (!scene_material_is_plain_mirror(m))
+    if (!scene_material_shows_lights(m))
         return;
     if (kind != SHAPE_POLYGON && kind != SHAPE_RING) {
         scene->has_mirrors = true;
@@ -245,7 +97,7 @@ static void note_mirror(scene_builder *b, int index) {
     }
     scene->mirrors = grown;
     scene->mirrors[scene->mirror_count++] = index;
-    scene->surfaces[index].mirrors = true;
+    scene->surfaces[index].mirrors = m->alternate < 0 || m->keeps_front;
 }
 
 static void add_shape(scene_builder *b, int primitive) {
@@ -262,7 +114,7 @@ static void add_shape(scene_builder *b, int primitive) {
     };
     scene->surface_count++;
     note_mirror(b, (int)index);
-    if (!scene->materials[material].emits)
+    if (!scene_material_emits(&scene->materials[material]))
         return;
     if (!shape_prepare_light(&scene->shapes[index], scene->memory))
         scene_fail(b, report_out_of_memory(b->report));
@@ -280,7 +132,11 @@ static void add_source(scene_builder *b, int primitive) {
     int material = scene_material_of_surface(b, p);
     if (material < 0)
         return;
-    if (!b->scene->materials[material].emits) {
+    if (!scene_material_emits(&b->scene->materials[material]) && scene_material_shining(b->scene, material) >= 0) {
+        scene_fail(b, rad_primitive_error(b->report, p, "a source that shines by a mixture is not supported"));
+        return;
+    }
+    if (!scene_material_emits(&b->scene->materials[material])) {
         rad_primitive_warning(b->report, p, "a source whose material does not shine does nothing");
         return;
     }
@@ -307,15 +163,19 @@ static bool is_glow_source(const graze_scene *scene, int primitive) {
     return material != RAD_VOID && scene->primitives[material].type == RAD_GLOW;
 }
 
-static bool sources_are_apart(const graze_scene *scene) {
-    for (size_t i = scene->first_source; i < scene->light_count; i++)
-        for (size_t k = scene->first_source; k < i; k++) {
-            const scene_light *a = &scene->lights[i], *b = &scene->lights[k];
-            double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
-            if (angle >= PI || between <= 2 * sin(angle / 2))
-                return false;
-        }
-    return true;
+static bool sources_overlap(const scene_light *a, const scene_light *b) {
+    double between = vec3_length(vec3_subtract(a->center, b->center)), angle = a->half_angle + b->half_angle;
+    return angle >= PI || between <= 2 * sin(angle / 2);
+}
+
+static void note_overlaps(graze_scene *scene) {
+    for (size_t i = scene->first_source; i < scene->light_count; i++) {
+        scene_light *light = &scene->lights[i];
+        light->alone = true;
+        for (size_t k = scene->first_source; k < i && light->alone; k++)
+            light->alone = !sources_overlap(light, &scene->lights[k]);
+        scene->suns_overlap = scene->suns_overlap || !(light->alone || light->glow);
+    }
 }
 
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
@@ -331,7 +191,7 @@ static void add_surfaces(scene_builder *b) {
         for (size_t i = 0; i < b->own; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
-    scene->sources_apart = sources_are_apart(scene);
+    note_overlaps(scene);
 }
 
 /* Whether there is a light that may be known without sampling where it is seen wholly. */
@@ -352,7 +212,7 @@ static graze_status allocate(scene_builder *b) {
     scene->memory = arena_create();
     scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
     scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
-    scene->materials = calloc(modifiers + 1, sizeof *scene->materials);
+    scene->materials = calloc(modifiers + 1, sizeof *scene->materials); /* one may be void */
     scene->lights = calloc(scene->primitive_count + 1, sizeof *scene->lights);
     b->material_of = malloc((scene->primitive_count + 1) * sizeof *b->material_of);
     if (!scene->memory || !scene->shapes || !scene->surfaces || !scene->materials || !scene->lights || !b->material_of)
@@ -378,6 +238,15 @@ static graze_status read_description(scene_builder *b, const char *const *names,
     return has_copies(scene) ? rad_scene_read_parts(scene->description, b->report) : GRAZE_OK;
 }
 
+static graze_status add_definitions(scene_builder *b) {
+    const graze_scene_settings *s = b->settings;
+    graze_status status = s->definition_count > 0 ? scene_need_modifiers(b) : GRAZE_OK;
+    for (size_t i = 0; i < s->definition_count && status == GRAZE_OK; i++)
+        status = material_library_define(material_modifiers_library(b->scene->modifiers), s->definitions[i].text,
+                                         s->definitions[i].file);
+    return status;
+}
+
 /* From primitives to surfaces, materials and lights. */
 static graze_status add_all(scene_builder *b) {
     graze_scene *scene = b->scene;
@@ -385,10 +254,13 @@ static graze_status add_all(scene_builder *b) {
     b->status = scene_check_models(b->settings, scene->primitives, scene->primitive_count, b->report);
     if (b->status == GRAZE_OK)
         b->status = allocate(b);
+    if (b->status == GRAZE_OK)
+        b->status = add_definitions(b);
     if (b->status != GRAZE_OK)
         return b->status;
     scene_check_ambient(b->settings, scene->primitives, scene->primitive_count, b->report);
     add_surfaces(b);
+    scene_add_mixed_lights(b);
     if (has_copies(scene) && b->status != GRAZE_SYSTEM_ERROR)
         scene_add_copies(b);
     return b->status;
@@ -419,8 +291,11 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     graze_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return report_out_of_memory(report);
-    scene_builder b = {
-        .scene = scene, .settings = settings ? settings : &as_described, .report = report, .status = GRAZE_OK};
+    scene_builder b = {.scene = scene,
+                       .settings = settings ? settings : &as_described,
+                       .report = report,
+                       .nothing = -1,
+                       .status = GRAZE_OK};
     b.status = read_description(&b, descriptions, count);
     if (b.status == GRAZE_OK)
         b.status = add_all(&b);

@@ -11,6 +11,7 @@
 #include "graze/material.h"
 #include "graze/scene.h"
 #include "material/orientation.h"
+#include "material/prism.h"
 #include "material/reflection.h"
 #include "material/wgmd.h"
 #include "rad/scene_file.h"
@@ -36,6 +37,7 @@ typedef struct scene_light {
     const shape *shape;                 /* null for a source */
     int surface;                        /* index of the shape; -1 for a source */
     int primitive;                      /* of the surface, in the description */
+    bool secondary;                     /* of the material illum: its surface is seen as another material */
     bool glow;
     double glow_radius; /* of a glow: where it is LIGHT_DIRECT; 0: nowhere; negative: LIGHT_NONE everywhere */
     bool spot;
@@ -43,24 +45,50 @@ typedef struct scene_light {
     double spot_cosine; /* of the half angle of the cone */
     double spot_focus;  /* how far behind the light its cone begins */
     vec3 center;        /* of a source: the unit direction towards it */
+    bool alone;         /* of a source: no part of it is a source's that is before it in the scene's lights */
     double half_angle;  /* of a source, radians */
-    bool only_seen;     /* it is in a copy: no light for others, but of a glow beyond its radius */
+    bool only_seen;     /* it is in a copy, or a mixture: no light for others, but of a glow beyond its radius */
 } scene_light;
 
-/* What a material does, with all that modifies it: it reflects, it shines, or it is one of two materials. */
+typedef enum scene_material_kind {
+    SCENE_REFLECTOR, /* what include/graze/material.h knows: opaque, transmitting, clear, or a mirror */
+    SCENE_ORIENTED,  /* the same, its orientation by functions */
+    SCENE_EMITTER,   /* it shines */
+    SCENE_FUNCTION,  /* it scatters lights by a function */
+    SCENE_WGMD,      /* WGMDfunc */
+    SCENE_PRISM,     /* it sends light on in directions by functions */
+    SCENE_MIXTURE,   /* it is one of two materials, or both in part */
+    SCENE_NOTHING,   /* void, in a mixture or as an alternate: light goes straight on */
+} scene_material_kind;
+
+/* What a material does, with all that modifies it. */
 typedef struct scene_material {
-    int primitive; /* the material, or the mixture, in the description */
-    bool emits;
-    bool plain;                              /* it reflects, and `reflector` is all there is to it: */
-    graze_material reflector;                /* unless `emits`, nor a mixture */
-    scene_light light;                       /* if it emits: what the material says of a light */
-    const material_orientation *orientation; /* by functions, or null */
-    const material_reflection *reflection;   /* the same; `reflector` is then not set */
-    const material_wgmd *wgmd;               /* the same; `reflector` has no more than the model */
-    const material_modifier *modifiers;      /* patterns and textures, or null */
-    const material_modifier *mixture;        /* or null: */
-    int fore, back;                          /* indices into materials */
-    int seen_light;                          /* index into lights of the one that surfaces in copies are; or -1 */
+    scene_material_kind kind;
+    int primitive;    /* the material, or the mixture, in the description */
+    int alternate;    /* index into materials of what it is seen as; -1: as itself */
+    bool keeps_front; /* with an alternate: the front of a mirror, which paths meet as that once they are scattered */
+    const material_modifier *modifiers; /* patterns and textures, or null */
+    union {
+        struct { /* SCENE_REFLECTOR, SCENE_ORIENTED */
+            graze_material reflector;
+            const material_orientation *orientation; /* SCENE_ORIENTED */
+        };
+        struct {               /* SCENE_EMITTER */
+            scene_light light; /* what the material says of a light */
+            int seen_light;    /* index into lights of the one that surfaces in copies and mixtures are; or -1 */
+        };
+        const material_reflection *reflection; /* SCENE_FUNCTION */
+        const material_prism *prism;           /* SCENE_PRISM */
+        struct {                               /* SCENE_WGMD */
+            const material_wgmd *wgmd;
+            graze_brdf_model model;
+        };
+        struct { /* SCENE_MIXTURE */
+            const material_modifier *share;
+            int fore, back; /* indices into materials */
+            int shining;    /* the emitter among these, and theirs, or -1 */
+        };
+    };
 } scene_material;
 
 typedef struct scene_surface {
@@ -68,7 +96,7 @@ typedef struct scene_surface {
     int material;    /* index into materials */
     int light;       /* index into lights, or -1 */
     bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;    /* flat, of the material `mirror`, not patterned */
+    bool mirrors;    /* flat, of the material `mirror`, without textures; to paths, not only to light samples */
 } scene_surface;
 
 /* An instance or a mesh in a part. */
@@ -107,15 +135,49 @@ struct graze_scene {
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
     bool has_panes;      /* surfaces that light goes straight through */
-    bool has_refraction; /* dielectrics */
+    bool has_refraction; /* dielectrics, prisms */
+    bool has_secondary;  /* lights of the material illum */
     scene_light *lights; /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
-    bool sources_apart;  /* no direction is in two of them */
+    bool suns_overlap;   /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
 };
+
+/* What a material is seen as, by all but light samples. */
+static inline const scene_material *scene_material_seen(const graze_scene *scene, const scene_material *material) {
+    while (material->alternate >= 0)
+        material = &scene->materials[material->alternate];
+    return material;
+}
+
+/* Whether the material shines: it is then no more than that. */
+static inline bool scene_material_emits(const scene_material *m) {
+    return m->kind == SCENE_EMITTER;
+}
+
+/* Which material it shines by, itself or one in its mixtures; or -1. */
+static inline int scene_material_shining(const graze_scene *scene, int material) {
+    const scene_material *m = &scene->materials[material];
+    return scene_material_emits(m) ? material : m->kind == SCENE_MIXTURE ? m->shining : -1;
+}
+
+/* Whether it bounds a clear body that refracts. */
+static inline bool scene_material_refracts(const scene_material *m) {
+    return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_DIELECTRIC;
+}
+
+/* Whether light comes through it, but not straight on: from either side, and where no light sample looks for it. */
+static inline bool scene_material_bends(const scene_material *m) {
+    return m->kind == SCENE_PRISM || scene_material_refracts(m);
+}
+
+/* Whether it is there from behind, too, where back faces are not visible. */
+static inline bool scene_material_has_back(const scene_material *m) {
+    return scene_material_bends(m) || (m->kind == SCENE_FUNCTION && m->reflection->keeps_normal);
+}
 
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,
  * or is an alias of ("void" where there is none; of a mixture of materials its own). */

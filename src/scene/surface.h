@@ -11,6 +11,11 @@ static inline scene_surface scene_surface_at(const graze_scene *scene, int64_t n
     return number < (int64_t)scene->surface_count ? scene->surfaces[number] : scene_copied_surface(scene, number);
 }
 
+/* What the surface is seen as. */
+static inline const scene_material *scene_material_at(const graze_scene *scene, int64_t number) {
+    return scene_material_seen(scene, &scene->materials[scene_surface_at(scene, number).material]);
+}
+
 /* Whether light may go straight through the surface (shape.passes). */
 static inline bool scene_surface_passes(const graze_scene *scene, int64_t number) {
     return number < (int64_t)scene->surface_count ? scene->shapes[number].passes

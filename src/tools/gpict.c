@@ -1,4 +1,6 @@
 /* gpict: pictures of a scene, in rpict's manners. */
+#include <unistd.h>
+
 #include "tools/common/tool.h"
 #include "tools/gpict/options.h"
 #include "tools/gpict/sequence.h"
@@ -33,8 +35,20 @@ static graze_status render_one(job *j) {
     return status;
 }
 
-static graze_status run(void *user, const tool_arguments *arguments, const graze_report *full_report) {
+/* Without a scene it comes by standard input, as rpict's does; but not from a terminal, where one was forgotten. */
+static tool_arguments with_scene(const tool_arguments *given, const gpict_options *o) {
+    static const char *const input[] = {"-"};
+    tool_arguments arguments = *given;
+    if (given->operand_count == 0 && o->first_frame == 0 && !isatty(STDIN_FILENO)) {
+        arguments.operands = input;
+        arguments.operand_count = 1;
+    }
+    return arguments;
+}
+
+static graze_status run(void *user, const tool_arguments *given, const graze_report *full_report) {
     program *p = user;
+    const tool_arguments with = with_scene(given, &p->options), *arguments = &with;
     const graze_report quiet = tool_report(full_report, p->options.render.warnings), *report = &quiet;
     job j = {.options = &p->options, .arguments = arguments, .report = report};
     graze_status status = render_options_begin(&p->options.render, arguments, report);
@@ -54,7 +68,7 @@ int main(int argc, char **argv) {
     program p = {.options = gpict_options_default()};
     gpict_options_table(&p.options, p.table);
     option_table options = {.program = "gpict",
-                            .synopsis = "[options] scene...",
+                            .synopsis = "[options] [scene...]",
                             .summary = "Renders pictures of Radiance scenes to a stated error.",
                             .options = p.table,
                             .count = GPICT_TABLE_SIZE};

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "base/vector.h"
-#include "tools/common/peer_options.h"
 #include "tools/common/record_filter.h"
 #include "tools/common/record_header.h"
 #include "tools/common/render_options.h"
@@ -14,7 +13,7 @@
 #include "tools/gtrace/features.h"
 
 #define RAY_FIELDS 6
-#define CHUNK_RAYS 512
+#define CHUNK_RAYS 2048
 /* Entries of the option table that are gtrace's own. */
 #define GTRACE_OPTION_COUNT 13
 
@@ -33,12 +32,13 @@ typedef struct job {
     atomic_ullong unconverged;
 } job;
 
-/* -f with letters behind it takes formats; alone, Radiance's file of definitions. */
+/* -f with letters behind it takes formats; alone, a file of definitions. */
 static graze_status take_formats(void *target, const char *suffix, int count, const char *const *words, int *used,
                                  const graze_report *report) {
+    gtrace_options *o = target;
     if (!*suffix)
-        return peer_take_definitions(target, suffix, count, words, used, report);
-    *(const char **)target = suffix;
+        return definition_list_take_file(&o->render.definitions, suffix, count, words, used, report);
+    o->formats = suffix;
     return GRAZE_OK;
 }
 
@@ -49,7 +49,7 @@ static graze_status refuse_features(void *target, const char *suffix, int count,
 }
 
 static void print_formats(void *target, FILE *out) {
-    fprintf(out, "-f%s", *(const char *const *)target);
+    fprintf(out, "-f%s", ((const gtrace_options *)target)->formats);
 }
 
 static size_t answer_rays(void *user, const record_numbers *rays, int worker, record_buffer *out, char *message) {
@@ -194,8 +194,8 @@ int main(int argc, char **argv) {
                         .tree_modifiers = {.letter = 't'}};
     option table[GTRACE_OPTION_COUNT + RENDER_OPTION_COUNT] = {
         {"", OPTION_HEADING, NULL, NULL, "Rays and answers", 0, 0, NULL, NULL},
-        {"-f", OPTION_SUFFIX, &o.formats, "IO", "formats in and out: a f d, and c out (4-byte colors)", 0, 0,
-         take_formats, print_formats},
+        {"-f", OPTION_SUFFIX, &o, "IO", "formats in and out: a f d, and c out (4-byte colors)", 0, 0, take_formats,
+         print_formats},
         {"-o", OPTION_SUFFIX, &o.letters, "SPEC",
          "what to print: letters of v e o d l L p n N s m M w c r R x X V W ~ t T", 0, 0, NULL, NULL},
         {"-te", OPTION_CUSTOM, &o.tree_modifiers, "MODIFIER", "-ot: tell of no rays that meet a surface of it", 0, 0,

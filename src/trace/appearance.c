@@ -2,110 +2,69 @@
 #include "trace/appearance.h"
 
 #include "scene/surface.h"
+#include "trace/appearance_kinds.h"
 #include "trace/vertex.h"
 
-static material_ray ray_of(const path_hit *hit, double length) {
-    return (material_ray){.point = hit->point,
-                          .direction = hit->direction,
-                          .normal = hit->normal,
-                          .distance = length + hit->distance,
-                          .last_distance = hit->distance};
+vec3 appearance_lean(const path_hit *hit, const encounter *of, const material_effect *e, vertex *v) {
+    vec3 normal = encounter_lean(hit, of, e);
+    v->leans = !vec3_is_same(normal, v->normal);
+    return normal;
 }
 
-/* What a hit's appearance is found by. */
-typedef struct encounter {
-    material_ray ray;
-    bool moved;              /* the material is written for another place: */
-    rad_transform transform; /* from there to the scene */
-    material_effect effect;  /* of the surface itself: a mesh's normal */
-} encounter;
+/* Perturbations below this bend nothing, as in Radiance. */
+#define NO_PERTURBATION 1e-6
 
-/* The ray there. */
-static void move(encounter *e) {
-    const rad_transform *t = &e->transform;
-    e->ray.point = rad_transform_point_back(t, e->ray.point);
-    e->ray.direction = rad_transform_direction_back(t, e->ray.direction);
-    e->ray.normal = rad_transform_direction_back(t, e->ray.normal);
-    e->ray.distance /= t->scale;
-    e->ray.last_distance /= t->scale;
-    e->effect.perturbation = rad_transform_direction_back(t, e->effect.perturbation);
+vec3 appearance_straight_on(const path *p, const path_hit *hit, vec3 perturbation, bool rough) {
+    bool bends = p->ambient_depth == 0 && (rough || !lobe_scatters(p->last.lobe));
+    if (!bends || !(vec3_dot(perturbation, perturbation) > NO_PERTURBATION * NO_PERTURBATION))
+        return hit->direction;
+    vec3 bent = vec3_safe_normalize(vec3_subtract(hit->direction, perturbation));
+    vec3 below = hit->behind ? hit->normal : vec3_negate(hit->normal);
+    return vec3_dot(bent, below) > 0 ? bent : hit->direction;
 }
 
-static encounter meet(const graze_scene *scene, const path_hit *hit, double length) {
-    encounter e = {.ray = ray_of(hit, length), .effect = {.color = {1, 1, 1}}};
-    if (hit->surface < (int64_t)scene->surface_count)
-        return e;
-    scene_mesh_point mesh = scene_mesh_point_at(scene, hit->surface, hit->point);
-    if (mesh.has_normal)
-        e.effect.perturbation = vec3_subtract(mesh.normal, hit->normal);
-    e.ray.u = mesh.uv[0];
-    e.ray.v = mesh.uv[1];
-    e.moved = scene_material_is_moved(scene, hit->surface, &e.transform);
-    if (e.moved)
-        move(&e);
-    return e;
+/* How refraction goes on where the normal leans so far that it would not get through: by the surface's own normal, with
+ * what the leaning one had been bent by. */
+static vec3 refract_plainly(const graze_surface *s, double ratio, vec3 normal) {
+    double along = vec3_dot(vec3_add_scaled(s->transmitted, ratio, s->view), s->n);
+    vec3 straight = vec3_scale(-ratio, s->view);
+    return vec3_safe_normalize(vec3_add_scaled(straight, -fabs(along), normal));
 }
 
-/* A unit vector of the scene, as the material's functions know it. */
-static vec3 as_written(const encounter *e, vec3 direction) {
-    return e->moved ? rad_transform_direction_back(&e->transform, direction) : direction;
+/* Where the viewer looks on beyond a surface whose normal leans. */
+static void bend(const path *p, const path_hit *hit, const graze_material *m, vec3 perturbation, vertex *v) {
+    graze_surface *s = &v->shading;
+    switch (m->kind) {
+    case GRAZE_GLASS:
+        s->transmitted = appearance_straight_on(p, hit, vec3_scale(2 * (m->refraction - 1), perturbation), false);
+        break;
+    case GRAZE_TRANS:
+        s->transmitted =
+            appearance_straight_on(p, hit, perturbation, s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY);
+        break;
+    case GRAZE_DIELECTRIC:
+        if (vec3_dot(s->transmitted, v->normal) >= 0)
+            s->transmitted = refract_plainly(s, hit->behind ? m->refraction : 1 / m->refraction, v->normal);
+        break;
+    default:
+        break;
+    }
 }
 
-material_ray appearance_ray(const graze_scene *scene, const path_hit *hit, double length) {
-    return meet(scene, hit, length).ray;
-}
-
-static material_effect add_effect(const material_modifier *modifiers, const material_ray *ray, material_effect before) {
-    material_effect e = material_modify(modifiers, ray);
-    return (material_effect){rgb_multiply(before.color, e.color), vec3_add(before.perturbation, e.perturbation)};
-}
-
-/* Perturbations are for the surface's own normal. */
-static vec3 lean(const path_hit *hit, const encounter *of, const material_effect *e) {
-    vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal;
-    vec3 perturbation = hit->behind ? vec3_negate(e->perturbation) : e->perturbation;
-    if (of->moved)
-        perturbation = rad_transform_direction(&of->transform, perturbation);
-    return material_perturbed_normal(normal, perturbation, hit->direction);
-}
-
-/* Negative colours reflect nothing; what overflows would. */
-static rgb colored(rgb color, rgb pattern) {
-    rgb c = rgb_multiply(color, pattern);
-    return (rgb){fmin(fmax(c.r, 0), SCENE_LARGEST_RADIANCE), fmin(fmax(c.g, 0), SCENE_LARGEST_RADIANCE),
-                 fmin(fmax(c.b, 0), SCENE_LARGEST_RADIANCE)};
-}
-
-static void lean_vertex(const path_hit *hit, const encounter *of, const material_effect *e, vertex *v, vec3 *normal) {
-    *normal = lean(hit, of, e);
-    v->leans = normal->x != v->normal.x || normal->y != v->normal.y || normal->z != v->normal.z;
-}
-
-/* The function's part is for lights, the diffuse part for these, too; all else is reflected by the whole colour. */
-static void prepare_function(const path *p, const path_hit *hit, const encounter *of, const material_reflection *r,
-                             const material_effect *e, vertex *v) {
-    rgb color = colored(r->color, e->color);
-    const graze_material diffuse = {.kind = GRAZE_PLASTIC, .color = rgb_scale(1 - r->specularity, color)};
-    vec3 normal;
-    lean_vertex(hit, of, e, v, &normal);
-    graze_surface_prepare(&v->shading, &diffuse, normal, vec3_negate(hit->direction), NULL);
-    v->ambient = color;
-    v->gloss_is_ambient = false;
-    v->function = r;
-    v->function_scene = of->moved ? p->context->scene : NULL;
-    v->function_point = (material_reflection_point){of->ray, as_written(of, normal), color};
-    v->function_point.ray.normal = as_written(of, v->normal);
-    v->function_color = rgb_scale(r->specularity, r->metal ? color : rgb_gray(1));
+static rgb transmissivity(rgb color, rgb pattern) {
+    rgb c = encounter_colored(color, pattern);
+    return (rgb){fmin(c.r, 1), fmin(c.g, 1), fmin(c.b, 1)};
 }
 
 /* Of panes, what they transmit is multiplied by the pattern; of dielectrics, what a unit of length does. */
 static graze_material patterned(const graze_material *m, rgb pattern) {
     graze_material patterned = *m;
     if (m->kind == GRAZE_DIELECTRIC) {
-        rgb inside = colored(m->inside, pattern);
-        patterned.inside = (rgb){fmin(inside.r, 1), fmin(inside.g, 1), fmin(inside.b, 1)};
+        patterned.inside = transmissivity(m->inside, pattern);
+        if (rgb_min(m->outside) < 1)
+            patterned.outside = transmissivity(m->outside, pattern);
     } else if (m->kind != GRAZE_GLASS) {
-        patterned.color = colored(m->color, pattern);
+        patterned.color = encounter_colored(m->color, pattern);
     }
     return patterned;
 }
@@ -113,20 +72,21 @@ static graze_material patterned(const graze_material *m, rgb pattern) {
 static void prepare_reflector(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                               const material_effect *e, vertex *v) {
     graze_material reflector = patterned(&m->reflector, e->color);
-    if (m->orientation) {
+    if (m->kind == SCENE_ORIENTED) {
         material_ray own = of->ray;
-        own.normal = as_written(of, v->normal);
+        own.normal = encounter_as_written(of, v->normal);
         reflector.orientation = material_orientation_at(m->orientation, &own);
     }
     if (of->moved && reflector.has_orientation)
         reflector.orientation = rad_transform_vector(&of->transform, reflector.orientation);
-    vec3 normal;
-    lean_vertex(hit, of, e, v, &normal);
+    vec3 normal = appearance_lean(hit, of, e, v);
     if (reflector.kind >= GRAZE_DIELECTRIC && hit->behind)
         normal = vec3_negate(normal);
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
     if (reflector.kind == GRAZE_GLASS && v->shading.transmits)
-        v->shading.transmitted_specular = colored(v->shading.transmitted_specular, e->color);
+        v->shading.transmitted_specular = encounter_colored(v->shading.transmitted_specular, e->color);
+    if (v->leans && v->shading.transmits)
+        bend(p, hit, &reflector, encounter_perturbation(hit, of, e), v);
     vertex_find_ambient(p, v, &reflector);
 }
 
@@ -156,77 +116,87 @@ static bool blend_vertices(vertex *v, double share, const vertex *fore, const ve
     return true;
 }
 
-static bool draw(const path *p, double share) {
+static double draw_number(const path *p) {
     double random[2] = {0.5, 0.5};
     if (p->sampler)
         sampler_2d(p->sampler, random);
-    return random[0] < share;
+    return random[0];
 }
 
-/* From where its functions see it. */
-static void bring_to_scene(const encounter *of, graze_surface *s) {
-    if (!of->moved)
-        return;
-    s->n = rad_transform_direction(&of->transform, s->n);
-    s->x = rad_transform_direction(&of->transform, s->x);
-    s->y = vec3_cross(s->n, s->x);
-    s->view = rad_transform_direction(&of->transform, s->view);
-    s->local_view = vec3_make(vec3_dot(s->view, s->x), vec3_dot(s->view, s->y), vec3_dot(s->view, s->n));
+bool appearance_draw(const path *p, double share) {
+    return draw_number(p) < share;
 }
 
-/* One surface where both parts have the same normal, as they mostly do; else one of them is drawn, for both. */
-static void prepare_wgmd(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
-                         material_effect before, vertex *v) {
-    const material_wgmd *w = m->wgmd;
-    material_effect own = m->modifiers ? add_effect(m->modifiers, &of->ray, before) : before;
-    material_effect shine = w->specular_inherits ? own : add_effect(w->specular_modifiers, &of->ray, before);
-    const material_wgmd_point at = {.ray = of->ray,
-                                    .model = m->reflector.model,
-                                    .diffuse_normal = as_written(of, lean(hit, of, &own)),
-                                    .specular_normal = as_written(of, lean(hit, of, &shine)),
-                                    .diffuse_color = colored(rgb_gray(1), own.color),
-                                    .specular_color = colored(rgb_gray(1), shine.color)};
-    graze_surface diffuse, specular;
-    material_wgmd_prepare(w, &at, &diffuse, &specular);
-    bring_to_scene(of, &diffuse);
-    bring_to_scene(of, &specular);
-    v->function = NULL;
-    v->shading = specular;
-    v->shading.diffuse = diffuse.diffuse;
-    if (!vec3_is_same(at.diffuse_normal, at.specular_normal)) {
-        v->drawn = true;
-        v->shading = draw(p, 0.5) ? diffuse : specular;
-        v->shading.diffuse = rgb_scale(2, v->shading.diffuse);
-        v->shading.specular = rgb_scale(2, v->shading.specular);
-    }
-    v->leans = !vec3_is_same(v->shading.n, v->normal);
-    const graze_material threshold = {.specularity = rgb_brightness(specular.specular)};
-    vertex_find_ambient(p, v, &threshold);
+int appearance_draw_of(const path *p, int count) {
+    return (int)(draw_number(p) * count);
 }
 
 /* What a mixture is where its share cannot be computed, as in Radiance. */
-static const scene_material black = {.reflector = {.kind = GRAZE_PLASTIC}};
+static const scene_material black = {.kind = SCENE_REFLECTOR, .reflector = {.kind = GRAZE_PLASTIC}};
 
-static void prepare(const path *p, const path_hit *hit, const encounter *of, const scene_material *m, material_effect e,
-                    vertex *v) {
-    const scene_material *materials = p->context->scene->materials;
-    if (m->wgmd) {
-        prepare_wgmd(p, hit, of, m, e, v);
-        return;
+static void prepare(const path *, const path_hit *, const encounter *, const scene_material *, material_effect,
+                    vertex *);
+
+/* Whether what the surface transmits goes straight on, if there is any. */
+static bool leads_straight_on(const path_hit *hit, const vertex *v) {
+    const graze_surface *s = &v->shading;
+    return !s->transmits || s->transmitted_lobe == GRAZE_LOBE_NONE ||
+           (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED && vec3_is_same(s->transmitted, hit->direction));
+}
+
+/* Leaves this share of a surface, and lets the rest of all light straight through. */
+static void perforate(const path *p, const path_hit *hit, double share, vertex *v) {
+    graze_surface *s = &v->shading;
+    if (!s->transmits) {
+        s->transmitted_diffuse = s->transmitted_specular = rgb_gray(0);
+        s->transmitted_u = s->lobe.alpha_x;
+        s->transmitted_v = s->lobe.alpha_y;
+        v->transmitted_ambient = v->transmitted_function = rgb_gray(0);
+        v->transmitted_gloss_is_ambient = false;
     }
-    if (m->modifiers)
-        e = add_effect(m->modifiers, &of->ray, e);
-    if (m->reflection) {
-        prepare_function(p, hit, of, m->reflection, &e, v);
-        return;
+    s->transmits = 1;
+    s->transmitted_lobe = GRAZE_LOBE_TRANSMITTED;
+    s->transmitted = hit->direction;
+    rgb *const parts[] = {&s->diffuse, &s->specular,           &s->transmitted_diffuse, &s->transmitted_specular,
+                          &v->ambient, &v->transmitted_ambient};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        *parts[i] = rgb_scale(share, *parts[i]);
+    if (v->function) {
+        v->function_color = rgb_scale(share, v->function_color);
+        v->transmitted_function = rgb_scale(share, v->transmitted_function);
     }
-    if (!m->mixture) {
-        prepare_reflector(p, hit, of, m, &e, v);
-        return;
+    s->transmitted_specular = rgb_add(s->transmitted_specular, rgb_gray(1 - share));
+    vertex_set_passage(p, v);
+}
+
+/* A material, of which there is this share, and void. */
+static void prepare_with_nothing(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
+                                 material_effect e, double share, vertex *v) {
+    if (share > 0)
+        prepare(p, hit, of, m, e, v);
+    if (share > 0 && !leads_straight_on(hit, v)) {
+        v->drawn = true;
+        if (appearance_draw(p, share))
+            return;
+        share = 0;
     }
-    double share;
-    if (!material_mixture_share(m->mixture, &of->ray, &share)) {
+    if (share == 0)
         prepare_reflector(p, hit, of, &black, &e, v);
+    if (share < 1)
+        perforate(p, hit, share, v);
+}
+
+static void prepare_mixture(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
+                            material_effect e, vertex *v) {
+    const scene_material *materials = p->context->scene->materials;
+    double share;
+    if (!material_mixture_share(m->share, &of->ray, &share)) {
+        prepare_reflector(p, hit, of, &black, &e, v);
+        return;
+    }
+    if (materials[m->fore].kind == SCENE_NOTHING || materials[m->back].kind == SCENE_NOTHING) {
+        bool first = materials[m->back].kind == SCENE_NOTHING;
+        prepare_with_nothing(p, hit, of, &materials[first ? m->fore : m->back], e, first ? share : 1 - share, v);
         return;
     }
     vertex fore = *v, back = fore;
@@ -237,50 +207,127 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
     if (share == 0 || share == 1) {
         *v = share == 0 ? back : fore;
     } else if (!blend_vertices(v, share, &fore, &back)) {
-        *v = draw(p, share) ? fore : back;
+        *v = appearance_draw(p, share) ? fore : back;
         v->drawn = true;
     }
 }
 
+static void prepare(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
+                    material_effect before, vertex *v) {
+    if (m->kind == SCENE_WGMD) {
+        appearance_prepare_wgmd(p, hit, of, m, before, v);
+        return;
+    }
+    const material_effect e = encounter_add_effect(m->modifiers, &of->ray, before);
+    switch (m->kind) {
+    case SCENE_REFLECTOR:
+    case SCENE_ORIENTED:
+        prepare_reflector(p, hit, of, m, &e, v);
+        break;
+    case SCENE_FUNCTION:
+        appearance_prepare_function(p, hit, of, m->reflection, &e, v);
+        break;
+    case SCENE_MIXTURE:
+        prepare_mixture(p, hit, of, m, e, v);
+        break;
+    case SCENE_PRISM:
+        appearance_prepare_prism(p, hit, of, m->prism, v);
+        break;
+    case SCENE_NOTHING:
+        prepare_reflector(p, hit, of, &black, &e, v);
+        perforate(p, hit, 0, v);
+        break;
+    case SCENE_EMITTER:
+        prepare_reflector(p, hit, of, &black, &e, v);
+        break;
+    case SCENE_WGMD:
+        break;
+    }
+}
+
 void appearance_prepare(const path *p, const path_hit *hit, const scene_material *m, vertex *v) {
-    const encounter of = meet(p->context->scene, hit, p->length);
+    const encounter of = encounter_meet(p->context->scene, hit, p->length);
     prepare(p, hit, &of, m, of.effect, v);
 }
 
 vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double length) {
-    const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    const encounter of = meet(scene, hit, length);
+    const scene_material *m = scene_material_at(scene, hit->surface);
+    const encounter of = encounter_meet(scene, hit, length);
     material_effect e = of.effect;
     for (;;) {
-        if (m->modifiers)
-            e = add_effect(m->modifiers, &of.ray, e);
+        e = encounter_add_effect(m->modifiers, &of.ray, e);
         double share;
-        if (!m->mixture || !material_mixture_share(m->mixture, &of.ray, &share))
-            return lean(hit, &of, &e);
+        if (m->kind != SCENE_MIXTURE || !material_mixture_share(m->share, &of.ray, &share))
+            return encounter_lean(hit, &of, &e);
         m = &scene->materials[share >= 0.5 ? m->fore : m->back];
     }
 }
 
-static rgb straight_through(const scene_material *materials, const scene_material *m, const path_hit *hit,
-                            const encounter *of, material_effect e) {
-    if (m->emits || m->reflection || m->wgmd)
-        return rgb_gray(0);
-    if (m->modifiers)
-        e = add_effect(m->modifiers, &of->ray, e);
-    if (m->mixture) {
-        double share;
-        if (!material_mixture_share(m->mixture, &of->ray, &share))
-            return rgb_gray(0);
-        rgb fore = straight_through(materials, &materials[m->fore], hit, of, e);
-        return blend(share, fore, straight_through(materials, &materials[m->back], hit, of, e));
-    }
-    graze_material reflector = patterned(&m->reflector, e.color);
-    vec3 normal = lean(hit, of, &e);
+vec3 appearance_smooth_normal(const graze_scene *scene, const path_hit *hit) {
+    const encounter of = encounter_meet(scene, hit, 0);
+    return encounter_lean(hit, &of, &of.effect);
+}
+
+graze_material appearance_reflector(const graze_scene *scene, const scene_material *m, const path_hit *hit,
+                                    double length) {
+    const encounter of = encounter_meet(scene, hit, length);
+    return patterned(&m->reflector, encounter_add_effect(m->modifiers, &of.ray, of.effect).color);
+}
+
+static rgb through_reflector(const scene_material *m, const path_hit *hit, const encounter *of,
+                             const material_effect *e) {
+    graze_material reflector = patterned(&m->reflector, e->color);
+    vec3 normal = encounter_lean(hit, of, e);
     rgb through = graze_material_straight_through(&reflector, fabs(vec3_dot(normal, hit->direction)));
-    return reflector.kind == GRAZE_GLASS ? colored(through, e.color) : through;
+    return reflector.kind == GRAZE_GLASS ? encounter_colored(through, e->color) : through;
+}
+
+static rgb straight_through(const scene_material *materials, const scene_material *m, const path_hit *hit,
+                            const encounter *of, material_effect before) {
+    double share;
+    const material_effect e = encounter_add_effect(m->modifiers, &of->ray, before);
+    switch (m->kind) {
+    case SCENE_REFLECTOR:
+    case SCENE_ORIENTED:
+        return through_reflector(m, hit, of, &e);
+    case SCENE_MIXTURE:
+        if (!material_mixture_share(m->share, &of->ray, &share))
+            break;
+        return blend(share, straight_through(materials, &materials[m->fore], hit, of, e),
+                     straight_through(materials, &materials[m->back], hit, of, e));
+    case SCENE_NOTHING:
+        return rgb_gray(1);
+    case SCENE_FUNCTION:
+        return appearance_through_function(hit, of, m->reflection, &e);
+    case SCENE_WGMD:
+        return appearance_through_wgmd(hit, of, m, before);
+    case SCENE_EMITTER:
+    case SCENE_PRISM:
+        break;
+    }
+    return rgb_gray(0);
 }
 
 rgb appearance_straight_through(const graze_scene *scene, const scene_material *m, const path_hit *hit, double length) {
-    const encounter of = meet(scene, hit, length);
+    const encounter of = encounter_meet(scene, hit, length);
     return straight_through(scene->materials, m, hit, &of, of.effect);
+}
+
+/* The colour of what shines, and how much of the surface does. */
+static rgb shining(const scene_material *materials, const scene_material *m, const material_ray *ray,
+                   material_effect before) {
+    double share;
+    const material_effect e = encounter_add_effect(m->modifiers, ray, before);
+    if (scene_material_emits(m))
+        return encounter_colored(rgb_gray(1), e.color);
+    if (m->kind != SCENE_MIXTURE || !material_mixture_share(m->share, ray, &share))
+        return rgb_gray(0);
+    return blend(share, shining(materials, &materials[m->fore], ray, e),
+                 shining(materials, &materials[m->back], ray, e));
+}
+
+rgb appearance_emission(const graze_scene *scene, const path_hit *hit, double length, rgb radiance) {
+    const encounter of = encounter_meet(scene, hit, length);
+    const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    return encounter_colored(radiance, shining(scene->materials, m, &of.ray, of.effect));
 }

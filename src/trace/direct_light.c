@@ -63,7 +63,10 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
     const graze_surface *s = &v->shading;
     bool glossy = s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
     light_receiver receiver = {.point = v->point, .surface = &beyond->surface, .diffuse = s->transmitted_diffuse};
-    if (!context_samples_lights(p->context->settings) || (!glossy && rgb_is_black(v->transmitted_ambient))) {
+    if (v->function)
+        receiver.diffuse = rgb_add(receiver.diffuse, v->transmitted_function);
+    if (!context_samples_lights(p->context->settings) ||
+        (!glossy && rgb_is_black(v->transmitted_ambient) && rgb_is_black(receiver.diffuse))) {
         light_choice_none(&beyond->lights);
         return;
     }
@@ -88,7 +91,8 @@ static bool light_is_visible(const path *p, const vertex *v, const light_sample 
         .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
     if (!scene->has_panes)
         return !geometry_occluded(scene->geometry, &ray, target);
-    *light = rgb_multiply(panes_transmittance(p->context, &ray, p->length, target), *light);
+    *light = rgb_multiply(
+        panes_transmittance(p->context, &ray, p->length, target, light_is_proper(scene, sample->light)), *light);
     return !rgb_is_black(*light);
 }
 

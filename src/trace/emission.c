@@ -1,6 +1,7 @@
 /* Light from emitters that reflections lead to, by Radiance's rules of what counts. */
 #include "trace/emission.h"
 
+#include "scene/surface.h"
 #include "trace/appearance.h"
 #include "trace/known_light.h"
 #include "trace/mirrored_light.h"
@@ -29,26 +30,54 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
 
 static rgb patterned(const path *p, const path_hit *hit, rgb radiance) {
     const scene_light *light = &p->context->scene->lights[hit->light];
-    if (light->only_seen && light->modifiers) {
-        const material_ray ray = appearance_ray(p->context->scene, hit, p->length);
-        return light_patterned_for(light, radiance, &ray);
-    }
+    if (light->only_seen)
+        return rgb_is_black(radiance) ? radiance : appearance_emission(p->context->scene, hit, p->length, radiance);
     return light_patterned(light, radiance, hit->point, hit->direction, hit->normal, hit->distance, p->length);
 }
 
+/* The light of a hit. The cone of a spotlight in a copy goes with this: the light is then put into *turned. */
+static const scene_light *light_of(const path *p, const path_hit *hit, scene_light *turned) {
+    const graze_scene *scene = p->context->scene;
+    const scene_light *light = &scene->lights[hit->light];
+    rad_transform t;
+    if (!light->only_seen || !light->spot || !scene_material_is_moved(scene, hit->surface, &t))
+        return light;
+    *turned = *light;
+    turned->spot_axis = rad_transform_direction(&t, light->spot_axis);
+    turned->spot_focus *= t.scale;
+    return turned;
+}
+
 rgb emission_radiance(const path *p, const path_hit *hit, bool lights) {
-    const scene_light *light = &p->context->scene->lights[hit->light];
+    scene_light turned;
+    const scene_light *light = light_of(p, hit, &turned);
     double distance = hit->distance + p->last.travelled;
     return patterned(p, hit,
                      lights ? light_radiance_at(light, hit->direction, hit->normal, distance)
                             : light_radiance(light, hit->direction, hit->normal));
 }
 
-rgb emission_found(const path *p, const path_hit *hit) {
-    const scene_light *light = &p->context->scene->lights[hit->light];
+/* An illum stands for all that is behind it, glows and other illums: but not for lights, which shine through it. It
+ * does so for surfaces that it lights; to the eye, straight on or in mirrors, it is another material. */
+static bool is_seen_through(const path *p, const scene_light *light) {
+    if (light->secondary && !p->scattered)
+        return true;
+    return p->last.veiled && (light->secondary || light->glow);
+}
+
+void emission_pass_secondary(path *p, const path_hit *hit) {
+    if (hit->light < 0 || hit->behind || !p->scattered || !p->context->scene->lights[hit->light].secondary)
+        return;
+    p->throughput = p->last.indirect = rgb_gray(0);
+    p->last.veiled = true;
+}
+
+rgb emission_found_of(const path *p, const path_hit *hit) {
+    scene_light turned;
+    const scene_light *light = light_of(p, hit, &turned);
     light_role role = light_role_at(light, hit->distance + p->last.travelled);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
-    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered))
+    if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered) || is_seen_through(p, light))
         return rgb_gray(0);
     if (lobe_scatters(p->last.lobe)) {
         if (known_light_is_settled(p, hit->light))
@@ -62,4 +91,18 @@ rgb emission_found(const path *p, const path_hit *hit) {
         return rgb_gray(0);
     }
     return rgb_multiply(throughput, patterned(p, hit, radiance));
+}
+
+rgb emission_found(const path *p, const path_hit *hit) {
+    const graze_scene *scene = p->context->scene;
+    rgb found = emission_found_of(p, hit);
+    if (!scene->suns_overlap || hit->surface >= 0 || !lobe_scatters(p->last.lobe))
+        return found;
+    for (size_t i = (size_t)hit->light + 1; i < scene->light_count && !scene->lights[i].glow; i++)
+        if (light_source_shines_from(scene, (int)i, hit->direction)) {
+            path_hit other = *hit;
+            other.light = (int)i;
+            found = rgb_add(found, emission_found_of(p, &other));
+        }
+    return found;
 }

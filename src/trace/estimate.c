@@ -100,17 +100,19 @@ static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_sett
     }
 }
 
-static void estimate_halves(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s,
+/* The first half has begun; the second one does where it is needed. */
+static void estimate_halves(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s, uint64_t stream,
                             const estimate_extras *extras, estimate_sample *sample, void *user, graze_answer *answer) {
     bool exact = estimate_half_take(&halves[0], sample, user) == ESTIMATE_EXACT;
     if (exact || s->samples == 1) {
         answer->value = estimate_not_negative(halves[0].sum[0]);
         rgb known = rgb_multiply(halves[0].known_error, halves[0].known_error);
-        answer->standard_error =
-            exact ? estimate_with_known_error(known, answer->value, halves) : rgb_gray(GRAZE_UNKNOWN_ERROR);
+        answer->standard_error = exact ? estimate_with_known_error(known, answer->value, halves[0].integrated)
+                                       : rgb_gray(GRAZE_UNKNOWN_ERROR);
         answer->samples = 1;
         return;
     }
+    estimate_half_begin(&halves[1], sampler_key(s->seed, stream, 1), halves[0].with_parts);
     if (s->samples) {
         estimate_half_take_until(&halves[0], s->samples - s->samples / ESTIMATE_HALVES, sample, user);
         estimate_half_take_until(&halves[1], s->samples / ESTIMATE_HALVES, sample, user);
@@ -138,10 +140,10 @@ static estimate_parts mean_parts(const estimate_half halves[ESTIMATE_HALVES]) {
 void estimate_with_extras(const graze_trace_settings *s, uint64_t stream, const estimate_extras *extras,
                           estimate_sample *sample, void *user, graze_answer *answer) {
     estimate_half halves[ESTIMATE_HALVES];
-    for (int i = 0; i < ESTIMATE_HALVES; i++)
-        estimate_half_begin(&halves[i], sampler_key(s->seed, stream, (uint32_t)i), extras->parts != NULL);
+    estimate_half_begin(&halves[0], sampler_key(s->seed, stream, 0), extras->parts != NULL);
+    halves[1].taken = 0;
     *answer = (graze_answer){.converged = 1};
-    estimate_halves(halves, s, extras, sample, user, answer);
+    estimate_halves(halves, s, stream, extras, sample, user, answer);
     if (extras->parts)
         *extras->parts = mean_parts(halves);
 }

@@ -25,7 +25,7 @@ typedef enum estimate_luck {
 } estimate_luck;
 
 /* Draws one sample. */
-typedef path_sample estimate_sample(void *user, sampler *, estimate_luck *luck);
+typedef void estimate_sample(void *user, sampler *, path_sample *, estimate_luck *luck);
 
 /* Takes samples until the settings' error or number of samples is reached. `stream` tells estimates apart. */
 void estimate(const graze_trace_settings *, uint64_t stream, estimate_sample *, void *user, graze_answer *);

@@ -48,8 +48,7 @@ estimate_finding estimate_finding_of(const estimate_half *h, const estimate_half
 #define KNOWN_ERROR    1e-8
 #define ROUNDING_ERROR 1e-12
 
-rgb estimate_with_known_error(rgb variance, rgb value, const estimate_half halves[ESTIMATE_HALVES]) {
-    bool integrated = halves[0].integrated || halves[1].integrated;
+rgb estimate_with_known_error(rgb variance, rgb value, bool integrated) {
     rgb error = rgb_scale(integrated ? KNOWN_ERROR : rgb_max(variance) > 0 ? ROUNDING_ERROR : 0, value);
     rgb sum = rgb_add(variance, rgb_multiply(error, error));
     return (rgb){sqrt(sum.r), sqrt(sum.g), sqrt(sum.b)};
@@ -146,6 +145,7 @@ void estimate_summarize(const estimate_half halves[ESTIMATE_HALVES], const estim
         rgb part = brightness > 0 ? rgb_scale(unseen / brightness, answer->value) : rgb_gray(unseen);
         variance = rgb_add(variance, rgb_multiply(part, part));
     }
-    answer->standard_error = estimate_with_known_error(variance, answer->value, halves);
+    bool integrated = halves[0].integrated || halves[1].integrated;
+    answer->standard_error = estimate_with_known_error(variance, answer->value, integrated);
     answer->samples = halves[0].taken + halves[1].taken;
 }

@@ -30,7 +30,7 @@ void estimate_share_halves(const estimate_half[ESTIMATE_HALVES], double share[ES
 rgb estimate_not_negative(rgb mean);
 
 /* The standard error of a value of this variance. */
-rgb estimate_with_known_error(rgb variance, rgb value, const estimate_half[ESTIMATE_HALVES]);
+rgb estimate_with_known_error(rgb variance, rgb value, bool integrated);
 
 /* What is missing of a mean of `count` samples, as it was found by `taken`, if next to nothing was found of what gloss
  * is expected to reflect of small lights: all of that, but the less, the more peaks of it should have been met; and

@@ -47,7 +47,8 @@ static void add_told(estimate_half *h, const path_sample *sample) {
 estimate_luck estimate_half_take(estimate_half *h, estimate_sample *sample, void *user) {
     sampler points = sampler_start(h->key, h->taken);
     estimate_luck luck = ESTIMATE_NOISY;
-    path_sample taken = sample(user, &points, &luck);
+    path_sample taken;
+    sample(user, &points, &taken, &luck);
     int block = next_block(h);
     h->sum[block] = rgb_add(h->sum[block], taken.radiance);
     add_controls(h, block, &taken);

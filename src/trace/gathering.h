@@ -19,7 +19,7 @@ typedef struct vertex {
     const graze_scene
         *function_scene; /* where the surface is in a copy, which the function's point is seen from; else null */
     material_reflection_point function_point;
-    rgb function_color; /* to multiply its values by */
+    rgb function_color; /* to multiply its values by, on the viewer's side */
     bool leans;         /* the normal of `shading` is not the surface's own */
     bool drawn;         /* which material of a mixture the surface has here was drawn at random */
     bool no_ambient;    /* diffuse light from surfaces is not followed here (-ae, -ai) */
@@ -27,6 +27,7 @@ typedef struct vertex {
     double distance;    /* that the path came from */
     /* Where the surface transmits, of its other side: */
     rgb transmitted_ambient;
+    rgb transmitted_function; /* to multiply the function's values by */
     bool transmitted_gloss_is_ambient;
     bool refracts; /* what TRANSMITTED lets through no light sample finds */
     rgb beyond;    /* transmittance of a unit of length there, if it refracts */

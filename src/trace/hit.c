@@ -4,10 +4,8 @@
 #include "scene/light.h"
 #include "scene/surface.h"
 
-/* Whether the surface bounds a clear body, which is looked at from inside, too. */
-static bool is_solid(const graze_scene *scene, int64_t surface) {
-    const scene_material *material = &scene->materials[scene_surface_at(scene, surface).material];
-    return !material->emits && material->reflector.kind == GRAZE_DIELECTRIC;
+static bool has_back(const graze_scene *scene, int64_t surface) {
+    return scene_material_has_back(scene_material_at(scene, surface));
 }
 
 path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {
@@ -18,7 +16,7 @@ path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, dou
     double travelled = 0;
     while (geometry_intersect(scene->geometry, &ray, &found)) {
         bool behind = vec3_dot(found.normal, direction) > 0;
-        if (behind && !context->settings->back_faces_visible && !is_solid(scene, found.surface)) {
+        if (behind && !context->settings->back_faces_visible && !has_back(scene, found.surface)) {
             hit.passed = hit.passed || !scene_surface_passes(scene, found.surface);
             travelled += found.distance;
             ray.origin = found.point;

@@ -148,7 +148,8 @@ static void follow_pilot(void *user, size_t index, int worker) {
         r->record.surface = -1;
         uint64_t key = sampler_key(p->context.settings->seed, index, 0x1000000u + (uint32_t)p->half);
         sampler points = sampler_start(key, (uint32_t)i);
-        (void)path_radiance(&context, &first, &points);
+        path_sample unused;
+        path_radiance(&context, &first, &points, &unused);
         r->key = r->record.surface < 0 ? NO_KEY : key_of(p->cache, &p->cache->halves[p->half], &r->record);
     }
 }
@@ -216,7 +217,8 @@ static void take_path(const filling *f, const irradiance_record *from, path_memo
     path_context context = f->context;
     context.memory = memory;
     sampler points = sampler_start(h->key, (uint32_t)h->taken++);
-    path_sample sample = path_irradiance_at(&context, from, &points);
+    path_sample sample;
+    path_irradiance_at(&context, from, &points, &sample);
     rgb value = sample.radiance;
     for (int k = 0; k < sample.control_count; k++)
         value = rgb_add(value, sample.controls[k].difference);
@@ -253,7 +255,8 @@ static void fill_cell(void *user, size_t index, int worker) {
     c->whole = is_in_one_place(f, c);
     if (!c->whole)
         return;
-    path_memory memory = {.alike = false};
+    path_memory memory;
+    path_memory_begin(&memory, false);
     half_cell halves[HALVES] = {{.taken = 0}, {.taken = 0}};
     for (int i = 0; i < HALVES; i++)
         halves[i].key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number * HALVES + (uint32_t)i);

@@ -145,20 +145,23 @@ void known_light_subtract_reflected(path *p, const vertex *from, const path_hit 
     for (int i = 0; i < (int)scene->light_count && i < PATH_FEW_LIGHTS; i++) {
         if (!known_light_is_control(p, i))
             continue;
-        if (hit->light == i && !hit->passed) {
+        const scene_light *light = &scene->lights[i];
+        const bool several = scene->suns_overlap && !light->shape && hit->surface < 0;
+        if (hit->light == i && !hit->passed && !several) {
             known_light_subtract(p, i, found, rgb_brightness(found));
             continue;
         }
-        const scene_light *light = &scene->lights[i];
         path_hit whole = {.surface = light->surface, .light = i, .distance = GEOMETRY_FAR, .direction = hit->direction};
         if (light->shape) {
             if (!shape_front_crossing(light->shape, from->point, hit->direction, &whole.distance))
                 continue;
             whole.point = vec3_add_scaled(from->point, whole.distance, hit->direction);
             whole.normal = shape_normal(light->shape, whole.point);
-        } else if (light_source_towards(scene, hit->direction) != i) {
+        } else if (!light_source_shines_from(scene, i, hit->direction)) {
             continue;
         }
-        known_light_subtract(p, i, emission_found(p, &whole), 0);
+        rgb unshadowed = emission_found_of(p, &whole);
+        bool lit = several && hit->light >= 0 && !hit->passed;
+        known_light_subtract(p, i, unshadowed, lit ? rgb_brightness(unshadowed) : 0);
     }
 }

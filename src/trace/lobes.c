@@ -103,8 +103,8 @@ static inline lobe_choice chances_above(const path *p, const vertex *v) {
 static lobe_choice chances_below(const path *p, const vertex *v) {
     const graze_surface *s = &v->shading;
     lobe_choice choice = {0};
-    choice.diffuse = lobe_chance(p, GRAZE_LOBE_TRANSMITTED_DIFFUSE, v->transmitted_ambient, path_bounces_left(p),
-                                 &choice.diffuse_ends);
+    rgb matte = v->function ? rgb_add(v->transmitted_ambient, v->transmitted_function) : v->transmitted_ambient;
+    choice.diffuse = lobe_chance(p, GRAZE_LOBE_TRANSMITTED_DIFFUSE, matte, path_bounces_left(p), &choice.diffuse_ends);
     if (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED)
         choice.specular = passage_chance(p, s->transmitted_specular);
     else if (s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY)
@@ -280,7 +280,7 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
     double scale = 1 / (diffuse ? choice->diffuse : choice->specular);
     graze_surface_sample sample = draw_direction(p, &v->shading, lobe, random);
     /* The function is found by diffuse samples. */
-    if (!below && v->function && diffuse)
+    if (v->function && diffuse)
         sample.weight = rgb_add_scaled(sample.weight, PI, vertex_function_value(v, sample.direction));
     /* The weight of a diffuse sample is its reflectance: for `light`s that of the diffuse part alone. */
     rgb indirect = !diffuse ? sample.weight : below ? v->transmitted_ambient : v->ambient;
@@ -321,8 +321,6 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
 }
 
 bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice, vec3 *direction) {
-    if (choice->diffuse + choice->specular == 0)
-        return false;
     double random[4] = {0, 0, 0, 0};
     draw_numbers(p, v->shading.specular_lobe, *choice, random);
     return go_on(p, v, lights, choice, false, random, direction);

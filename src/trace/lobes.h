@@ -8,6 +8,11 @@
 lobe_choice lobes_choose(const path *, const vertex *);
 void lobes_choose_both(const path *, const vertex *, lobe_choice *above, lobe_choice *below);
 
+/* Whether any lobe of the viewer's side may be taken. Where none is, lobes_reflect must not be called. */
+static inline bool lobes_may_reflect(const lobe_choice *choice) {
+    return choice->diffuse + choice->specular > 0;
+}
+
 /* Draws the lobe to go on with, of those of the viewer's side or of both, and turns the path into it. False: the path
  * ends here. */
 bool lobes_reflect(path *, const vertex *, const light_choice *, const lobe_choice *, vec3 *direction);

@@ -2,6 +2,7 @@
 #include "trace/mirrored_light.h"
 
 #include "geometry/crossing.h"
+#include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
@@ -33,16 +34,19 @@ static vec3 mirror_point(const plane *p, vec3 point) {
 }
 
 /* Whether the mirror shows the vertex: it has its front there, and is not all below the horizon as far as its plane
- * tells. */
-static bool shows(const graze_scene *scene, int mirror, const vertex *v) {
+ * tells. What paths see it as without reflecting them, only light samples see lights in: whatever the strategy. */
+static bool shows(const path_context *context, int mirror, const vertex *v) {
+    const graze_scene *scene = context->scene;
     const plane p = plane_of(&scene->shapes[mirror]);
+    if (scene->surfaces[mirror].mirrors && !context_samples_lights(context->settings))
+        return false;
     return mirror != v->surface && height_over(&p, v->point) > 0;
 }
 
-static int count_shown(const graze_scene *scene, const vertex *v) {
+static int count_shown(const path_context *context, const vertex *v) {
     int count = 0;
-    for (size_t i = 0; i < scene->mirror_count; i++)
-        count += shows(scene, scene->mirrors[i], v);
+    for (size_t i = 0; i < context->scene->mirror_count; i++)
+        count += shows(context, context->scene->mirrors[i], v);
     return count;
 }
 
@@ -87,11 +91,27 @@ static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror
     vec3 at = shape_pull(&scene->shapes[mirror], vec3_add_scaled(v->point, to_mirror, sample->direction));
     double left = sample->distance < GEOMETRY_FAR ? sample->distance - to_mirror : GEOMETRY_FAR;
     geometry_ray second = {.origin = at, .direction = onward, .far = left, .from = mirror};
-    rgb before = panes_transmittance(p->context, &first, p->length, mirror);
+    rgb before = panes_transmittance(p->context, &first, p->length, mirror, true);
     if (!(left > 0) || rgb_is_black(before))
         return rgb_gray(0);
-    rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface);
+    rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface,
+                                     light_is_proper(scene, sample->light));
     return rgb_multiply(before, behind);
+}
+
+/* What the mirror reflects, where it shows the light. */
+static rgb color_of(const path *p, const vertex *v, int mirror, double to_mirror, vec3 direction) {
+    const graze_scene *scene = p->context->scene;
+    const scene_material *material = &scene->materials[scene->surfaces[mirror].material];
+    if (!material->modifiers)
+        return material->reflector.color;
+    const path_hit hit = {.surface = mirror,
+                          .light = -1,
+                          .distance = to_mirror,
+                          .point = vec3_add_scaled(v->point, to_mirror, direction),
+                          .normal = plane_of(&scene->shapes[mirror]).normal,
+                          .direction = direction};
+    return appearance_reflector(scene, material, &hit, p->length).color;
 }
 
 static void add_from(path *p, const vertex *v, int mirror, double expectation, const double random[3],
@@ -116,10 +136,15 @@ static void add_from(path *p, const vertex *v, int mirror, double expectation, c
     if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0) ||
         !shape_front_crossing(s, v->point, sample.direction, &to_mirror) || to_mirror >= sample.distance)
         return;
-    rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, choice), sample.radiance);
+    /* Where paths do not see the light in it, only what lights as a light does is seen by others. */
+    static const lobe_choice no_rival = {0};
+    const lobe_choice *rivals = scene->surfaces[mirror].mirrors ? choice : &no_rival;
+    if (rivals == &no_rival && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
+        return;
+    rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, rivals), sample.radiance);
     if (rgb_is_black(reflected))
         return;
-    rgb color = scene->materials[scene->surfaces[mirror].material].reflector.color;
+    rgb color = color_of(p, v, mirror, to_mirror, sample.direction);
     rgb found = rgb_multiply(rgb_multiply(arriving(p, v, mirror, to_mirror, &sample, onward), color), reflected);
     found = rgb_scale(cosine / density, rgb_multiply(p->throughput, found));
     p->radiance = rgb_add(p->radiance, found);
@@ -130,7 +155,7 @@ static void add_from(path *p, const vertex *v, int mirror, double expectation, c
 void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
     bool dull = v->shading.specular_lobe != GRAZE_LOBE_GLOSSY && rgb_is_black(v->ambient) && !v->function;
-    int count = dull || !context_samples_lights(p->context->settings) ? 0 : count_shown(scene, v);
+    int count = dull ? 0 : count_shown(p->context, v);
     double random[3];
     if (count == 0)
         return;
@@ -140,7 +165,7 @@ void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
         chosen = (int)(random[0] * count);
     }
     for (size_t i = 0, number = 0; i < scene->mirror_count; i++) {
-        if (!shows(scene, scene->mirrors[i], v) || (chosen >= 0 && (int)number++ != chosen))
+        if (!shows(p->context, scene->mirrors[i], v) || (chosen >= 0 && (int)number++ != chosen))
             continue;
         sampler_3d(p->sampler, random);
         add_from(p, v, scene->mirrors[i], share_of(count), random, choice);
@@ -153,10 +178,10 @@ double mirrored_light_density(const path *p, const path_hit *hit) {
     const plane mirror = plane_of(&scene->shapes[last->mirror]);
     int bounced = p->ambient_depth - (last->lobe == GRAZE_LOBE_DIFFUSE);
     image seen;
-    if (!shows(scene, last->mirror, last->vertex))
+    if (!shows(p->context, last->mirror, last->vertex))
         return 0;
     prepare_image(p, last->vertex, &mirror, bounced, &seen);
-    double expectation = share_of(count_shown(scene, last->vertex)) * light_expectation(&seen.lights, hit->light);
+    double expectation = share_of(count_shown(p->context, last->vertex)) * light_expectation(&seen.lights, hit->light);
     if (expectation == 0)
         return 0;
     return expectation *

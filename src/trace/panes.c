@@ -6,12 +6,15 @@
 
 /* What a surface that light passes lets through of the ray that meets it. One that is not there lets all. */
 static rgb pane_transmittance(const path_context *context, const geometry_hit *hit, vec3 direction, double length,
-                              double travelled) {
+                              double travelled, bool is_proper) {
     const graze_scene *scene = context->scene;
     double slope = vec3_dot(hit->normal, direction);
-    if (slope > 0 && !context->settings->back_faces_visible)
-        return rgb_gray(1);
     const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    if (slope < 0 && (material->keeps_front || (!is_proper && scene_material_emits(material))))
+        return rgb_gray(0);
+    material = scene_material_seen(scene, material);
+    if (slope > 0 && !context->settings->back_faces_visible && !scene_material_has_back(material))
+        return rgb_gray(1);
     if (appearance_is_plain(scene, material, hit->surface))
         return graze_material_straight_through(&material->reflector, fabs(slope));
     const path_hit at = {.surface = hit->surface,
@@ -24,7 +27,8 @@ static rgb pane_transmittance(const path_context *context, const geometry_hit *h
     return appearance_straight_through(scene, material, &at, length);
 }
 
-rgb panes_transmittance(const path_context *context, const geometry_ray *ray, double length, int64_t target) {
+rgb panes_transmittance(const path_context *context, const geometry_ray *ray, double length, int64_t target,
+                        bool is_proper) {
     const graze_scene *scene = context->scene;
     geometry_ray left = *ray;
     geometry_hit hit;
@@ -34,9 +38,9 @@ rgb panes_transmittance(const path_context *context, const geometry_ray *ray, do
     rgb transmittance = {1, 1, 1};
     double travelled = 0;
     while (panes && !rgb_is_black(transmittance) && geometry_intersect(scene->geometry, &left, &hit) &&
-           scene_surface_passes(scene, hit.surface)) {
-        transmittance =
-            rgb_multiply(transmittance, pane_transmittance(context, &hit, ray->direction, length, travelled));
+           hit.surface != target && scene_surface_passes(scene, hit.surface)) {
+        transmittance = rgb_multiply(transmittance,
+                                     pane_transmittance(context, &hit, ray->direction, length, travelled, is_proper));
         travelled += hit.distance;
         left.origin = hit.point;
         left.far -= hit.distance;
@@ -48,9 +52,11 @@ rgb panes_transmittance(const path_context *context, const geometry_ray *ray, do
 static bool is_clear(const graze_scene *scene, const path_hit *hit) {
     if (hit->surface < 0)
         return false;
-    const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
+    const scene_material *material = scene_material_at(scene, hit->surface);
+    if (material->kind != SCENE_REFLECTOR && material->kind != SCENE_ORIENTED)
+        return material->kind == SCENE_NOTHING;
     graze_material_kind kind = material->reflector.kind;
-    return !material->emits && (kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC);
+    return kind == GRAZE_TRANS || kind == GRAZE_GLASS || kind == GRAZE_DIELECTRIC;
 }
 
 path_hit panes_look_through(const path_context *context, const path_hit *first) {

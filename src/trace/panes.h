@@ -5,8 +5,9 @@
 #include "trace/hit.h"
 
 /* What is left of light between a point, `length` from the eye, and another one, `far` from it in the ray's direction,
- * or on the surface `target` there: black where something is between that it does not pass. */
-rgb panes_transmittance(const path_context *, const geometry_ray *, double length, int64_t target);
+ * or on the surface `target` there: black where something is between that it does not pass. An illum stands for all
+ * light that comes through its front but that of lights proper: it stops the rest, if the light `is_proper` not. */
+rgb panes_transmittance(const path_context *, const geometry_ray *, double length, int64_t target, bool is_proper);
 
 /* What a probe for irradiance in the ray's place (-i) would be put on: the first surface that is not glass or a
  * dielectric, straight on. */

@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "scene/surface.h"
+#include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/emission.h"
 #include "trace/irradiance_cache.h"
@@ -84,16 +85,23 @@ static void take_indirect(path *p, const vertex *v) {
     p->indirect_error = error;
 }
 
+/* Of patterns on clear bodies counts what they are where light leaves, as in Radiance. */
+static rgb medium_at(const path *p, const path_hit *hit, const scene_material *m) {
+    if (!m->modifiers)
+        return graze_material_attenuation(&m->reflector, hit->behind, 1);
+    const graze_material patterned = appearance_reflector(p->context->scene, m, hit, p->length);
+    return graze_material_attenuation(&patterned, hit->behind, 1);
+}
+
 /* What the way to a hit through a clear body leaves of the light; and of which body. */
 static void attenuate(path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
     if (hit->surface < 0)
         return;
-    const scene_material *material = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    const graze_material *m = &material->reflector;
+    const scene_material *material = scene_material_at(scene, hit->surface);
     /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
-    if (!material->emits && m->kind == GRAZE_DIELECTRIC && (hit->behind || rgb_min(m->outside) < 1))
-        p->medium = graze_material_attenuation(m, hit->behind, 1);
+    if (scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
+        p->medium = medium_at(p, hit, material);
     if (rgb_min(p->medium) == 1)
         return;
     rgb left = {pow(p->medium.r, hit->distance), pow(p->medium.g, hit->distance), pow(p->medium.b, hit->distance)};
@@ -138,6 +146,8 @@ static bool arrive(path *p, vec3 point, int64_t surface, const vertex *v, vec3 d
     rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
     p->radiance = rgb_add(p->radiance, found);
     observe_ray(p, point, &hit, found);
+    if (context->scene->has_secondary)
+        emission_pass_secondary(p, &hit);
     if (p->last.first && !(p->gathering && p->last.refracted))
         p->direct = p->radiance;
     if (v && p->gloss && !rgb_is_black(found))
@@ -189,10 +199,13 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
             mirrored_light_add(p, v, &here->lobes);
         if (!p->scattered)
             lobes_split(p, v, &here->lobes, transmits ? &beyond->lobes : NULL, branches);
+        const bool ends = !transmits && !lobes_may_reflect(&here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
-        if (!context->observer && !decided && known_light_is_all(p, v, &here->lights))
+        if (!ends && !context->observer && !decided && known_light_is_all(p, v, &here->lights))
             return;
         here->decided = !v->drawn;
+        if (ends)
+            return;
         vec3 direction;
         bool goes_on = transmits ? lobes_go_on(p, here, beyond, &direction)
                                  : lobes_reflect(p, v, &here->lights, &here->lobes, &direction);
@@ -259,7 +272,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->last.lights = NULL;
     p->last.vertex = NULL;
     p->last.first = true;
-    p->last.refracted = false;
+    p->last.refracted = p->last.veiled = false;
     p->last.travelled = 0;
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = p->gathering = p->indirect_known = false;
@@ -267,23 +280,21 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->rare = (path_rare){.times = 0};
 }
 
-static path_sample path_end(const path *p) {
-    path_sample sample;
-    sample.radiance = p->radiance;
-    sample.cached = p->cached;
-    sample.known_error = p->indirect_known ? p->indirect_error : rgb_gray(0);
+static void path_end(const path *p, path_sample *sample) {
+    sample->radiance = p->radiance;
+    sample->cached = p->cached;
+    sample->known_error = p->indirect_known ? p->indirect_error : rgb_gray(0);
     for (int i = 0; i < IRRADIANCE_PARTS && p->cached; i++)
-        sample.told[i] = p->told[i];
-    sample.control_count = p->control_count;
-    sample.rare = p->rare;
-    sample.noisy = p->noisy || p->sampler->group != p->first_group;
-    sample.searching = p->searching;
-    sample.integrated = p->integrated;
-    sample.indirect = p->indirect_light;
-    sample.albedo = p->albedo;
+        sample->told[i] = p->told[i];
+    sample->control_count = p->control_count;
+    sample->rare = p->rare;
+    sample->noisy = p->noisy || p->sampler->group != p->first_group;
+    sample->searching = p->searching;
+    sample->integrated = p->integrated;
+    sample->indirect = p->indirect_light;
+    sample->albedo = p->albedo;
     for (int i = 0; i < p->control_count; i++)
-        sample.controls[i] = p->controls[i];
-    return sample;
+        sample->controls[i] = p->controls[i];
 }
 
 /* Where a path begins: in the memory, if others begin there, too. */
@@ -293,7 +304,7 @@ static gathering *begin_at(const path_context *context, gathering *own) {
     return alike ? &context->memory->first : own;
 }
 
-path_sample path_radiance(const path_context *context, const path_hit *first, sampler *points) {
+void path_radiance(const path_context *context, const path_hit *first, sampler *points, path_sample *sample) {
     path p;
     path_start(&p, context, points);
     gathering own, *here = begin_at(context, &own);
@@ -315,11 +326,11 @@ path_sample path_radiance(const path_context *context, const path_hit *first, sa
             p.albedo = rgb_add(p.albedo, rgb_add(v->shading.transmitted_diffuse, v->shading.transmitted_specular));
         follow(&p, here);
     }
-    return path_end(&p);
+    path_end(&p, sample);
 }
 
 /* A path that begins at a vertex, as if it had been reflected diffusely that often. */
-static path_sample path_from(const path_context *context, sampler *points, vertex v, int ambient_depth) {
+static void path_from(const path_context *context, sampler *points, vertex v, int ambient_depth, path_sample *sample) {
     path p;
     path_start(&p, context, points);
     p.ambient_depth = ambient_depth;
@@ -327,15 +338,16 @@ static path_sample path_from(const path_context *context, sampler *points, verte
     gathering own, *here = begin_at(context, &own);
     here->vertex = v;
     follow(&p, here);
-    return path_end(&p);
+    path_end(&p, sample);
 }
 
-path_sample path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points) {
-    return path_from(context, points, vertex_of_sensor(point, normal), 0);
+void path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points, path_sample *sample) {
+    path_from(context, points, vertex_of_sensor(point, normal), 0, sample);
 }
 
-path_sample path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points) {
-    return path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1);
+void path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points,
+                        path_sample *sample) {
+    path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1, sample);
 }
 
 bool path_asks_indirect(const path_context *context, const path_hit *first, irradiance_record *record) {
@@ -348,12 +360,13 @@ bool path_asks_indirect(const path_context *context, const path_hit *first, irra
     return true;
 }
 
-path_sample path_indirect_at(const path_context *context, const irradiance_record *record, sampler *points) {
+void path_indirect_at(const path_context *context, const irradiance_record *record, sampler *points,
+                      path_sample *sample) {
     path p;
     path_start(&p, context, points);
     p.gathering = true;
     gathering own, *here = begin_at(context, &own);
     here->vertex = vertex_of_point(record->point, record->normal, record->surface);
     follow(&p, here);
-    return path_end(&p);
+    path_end(&p, sample);
 }

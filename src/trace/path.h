@@ -53,19 +53,19 @@ typedef struct path_sample {
 /* One sample of the radiance that arrives from `first` along the ray (or of irradiance there, by the settings'
  * quantity). Starts at the hit, so that all samples of a ray share it. Draws from the sampler only where the answer
  * depends on it. */
-path_sample path_radiance(const path_context *, const path_hit *first, sampler *);
+void path_radiance(const path_context *, const path_hit *first, sampler *, path_sample *);
 
 /* One sample of the irradiance on a sensor at `point`. */
-path_sample path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *);
+void path_irradiance(const path_context *, vec3 point, vec3 normal, sampler *, path_sample *);
 
 /* One sample of the irradiance at a record's point, on a path that has been reflected diffusely once. */
-path_sample path_irradiance_at(const path_context *, const struct irradiance_record *, sampler *);
+void path_irradiance_at(const path_context *, const struct irradiance_record *, sampler *, path_sample *);
 
 /* Whether path_radiance would use what is known of the irradiance where a path begins; if so, where that is. */
 bool path_asks_indirect(const path_context *, const path_hit *first, struct irradiance_record *);
 
 /* One sample of the irradiance at a record's point, before any reflection: `indirect` alone counts, lights are not
  * looked for. */
-path_sample path_indirect_at(const path_context *, const struct irradiance_record *, sampler *);
+void path_indirect_at(const path_context *, const struct irradiance_record *, sampler *, path_sample *);
 
 #endif

@@ -19,11 +19,22 @@ typedef struct path_memory_light {
     int times_mixed; /* how often it was in vain to ask whether the light is seen */
 } path_memory_light;
 
-/* Belongs to the estimate, whose paths come one after another, and begins as zeros but for `alike`. */
+/* Belongs to the estimate, whose paths come one after another. */
 typedef struct path_memory {
     bool alike;      /* all paths have the same first point */
     gathering first; /* where they do */
     path_memory_light lights[PATH_FEW_LIGHTS];
 } path_memory;
+
+/* Nothing is known yet. What is not set here is not read before it is; to clear all of it would take longer than many a
+ * path. */
+static inline void path_memory_begin(path_memory *memory, bool alike) {
+    memory->alike = alike;
+    memory->first.decided = false;
+    for (int i = 0; i < PATH_FEW_LIGHTS; i++) {
+        memory->lights[i].kept = false;
+        memory->lights[i].times_mixed = 0;
+    }
+}
 
 #endif

@@ -19,6 +19,7 @@ typedef struct scattering {
     const light_choice *lights; /* as seen from there */
     bool first;                 /* the path had only been mirrored before */
     bool refracted;             /* since then, or mirrored so that no light sample finds what is found beyond */
+    bool veiled;                /* since then through the front of an illum, where only what is no such counts */
     double travelled;           /* from there to where the path was last let through or mirrored; 0: not since then */
     const vertex *vertex;       /* where that was; its lights are the above, unless it transmitted */
     int mirror;                 /* the flat mirror that has reflected the path since then, or -1 */

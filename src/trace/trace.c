@@ -51,11 +51,11 @@ void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, 
     vec3 direction;
     double limit;
     *hit = describe_nothing(ray->origin);
-    if (!describe_ray(ray, &direction, &limit))
+    if (settings->quantity == GRAZE_IRRADIANCE || !describe_ray(ray, &direction, &limit))
         return;
     path_context context = {.scene = scene, .settings = settings};
     path_hit found = path_cast(&context, ray->origin, direction, limit, -1);
-    *hit = describe_hit(scene, &found);
+    *hit = describe_hit(scene, &found, settings->quantity);
 }
 
 /* A ray as estimate_sample sees it. */
@@ -65,31 +65,32 @@ typedef struct request {
     vec3 origin, direction;
 } request;
 
-static path_sample sample_ray(void *user, sampler *points, estimate_luck *luck) {
+static void sample_ray(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     const request *r = user;
-    path_sample sample;
     if (r->context.settings->quantity == GRAZE_IRRADIANCE)
-        sample = path_irradiance(&r->context, r->origin, r->direction, points);
+        path_irradiance(&r->context, r->origin, r->direction, points, sample);
     else
-        sample = path_radiance(&r->context, &r->first, points);
-    *luck = sample.searching ? ESTIMATE_SEARCH : sample.noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
-    return sample;
+        path_radiance(&r->context, &r->first, points, sample);
+    *luck = sample->searching ? ESTIMATE_SEARCH : sample->noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
 }
 
 void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray, uint64_t stream,
                  graze_answer *answer, graze_hit *hit) {
-    path_memory known = {.alike = true};
+    path_memory known;
+    path_memory_begin(&known, true);
     request r = {.context = {.scene = scene, .settings = settings, .memory = &known}, .origin = ray->origin};
     double limit;
     *answer = (graze_answer){.converged = 1};
     if (hit)
         *hit = describe_nothing(ray->origin);
-    if (!describe_ray(ray, &r.direction, &limit))
+    /* No mirror is before a sensor. */
+    bool sensor = settings->quantity == GRAZE_IRRADIANCE;
+    if (!describe_ray(ray, &r.direction, &limit) || (sensor && settings->part == GRAZE_MIRRORED))
         return;
-    if (settings->quantity != GRAZE_IRRADIANCE) {
+    if (!sensor) {
         r.first = path_cast(&r.context, ray->origin, r.direction, limit, -1);
         if (hit)
-            *hit = describe_hit(scene, &r.first);
+            *hit = describe_hit(scene, &r.first, settings->quantity);
     }
     estimate(settings, stream, sample_ray, &r, answer);
 }

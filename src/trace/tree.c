@@ -47,7 +47,7 @@ static void tell_ray(telling *t, const path_event *event, rgb contribution) {
                           .shadow = event->kind == PATH_SHADOW,
                           .origin = event->origin,
                           .direction = event->hit.direction,
-                          .hit = describe_hit(t->scene, &event->hit),
+                          .hit = describe_hit(t->scene, &event->hit, GRAZE_RADIANCE),
                           .coefficient = rgb_scale(t->share, event->coefficient),
                           .contribution = rgb_scale(t->share, contribution),
                           .mirrored_distance = GRAZE_FAR};
@@ -85,8 +85,11 @@ static graze_status tell_paths(telling *t, path_context context, const path_hit 
     for (uint32_t i = 0; i < paths && !r.failed; i++) {
         sampler points = sampler_start(key, i);
         r.count = 0;
-        path_sample sample = sensor ? path_irradiance(&context, root->origin, root->direction, &points)
-                                    : path_radiance(&context, first, &points);
+        path_sample sample;
+        if (sensor)
+            path_irradiance(&context, root->origin, root->direction, &points, &sample);
+        else
+            path_radiance(&context, first, &points, &sample);
         tell_path(t, &r);
         root->radiance = rgb_add_scaled(root->radiance, t->share, sample.radiance);
         root->mirrored = rgb_add_scaled(root->mirrored, t->share, t->mirrored);
@@ -114,7 +117,7 @@ graze_status graze_trace_tree(const graze_scene *scene, const graze_trace_settin
         path_hit first = {.surface = -1, .light = -1, .distance = GEOMETRY_FAR, .point = ray->origin};
         if (whole.quantity != GRAZE_IRRADIANCE) {
             first = path_cast(&context, ray->origin, root.direction, limit, -1);
-            root.hit = describe_hit(scene, &first);
+            root.hit = describe_hit(scene, &first, settings->quantity);
         }
         status = tell_paths(&t, context, &first, &root, stream, paths, report);
     }

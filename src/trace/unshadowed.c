@@ -81,7 +81,7 @@ bool unshadowed_light_at(const graze_scene *scene, const graze_surface *s, vec3 
     if (light->spot || light->modifiers || s->fresnel || (lobe && s->lobe.model != GRAZE_BRDF_GMD))
         return false;
     if (!light->shape)
-        return scene->sources_apart && light->half_angle < PI / 2 && source_light(&r, light);
+        return (light->alone || !light->glow) && light->half_angle < PI / 2 && source_light(&r, light);
     switch (light->shape->kind) {
     case SHAPE_POLYGON:
         return polygon_light(&r, light->shape);

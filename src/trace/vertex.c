@@ -18,52 +18,102 @@ static graze_surface probe(vec3 normal, vec3 view) {
     return surface;
 }
 
-/* What only surfaces have that let light through: apart from what all have, which is faster without it. */
-__attribute__((noinline)) static void find_other_side(const path *p, vertex *v, const graze_material *m) {
+/* The path only looks for lights straight on. */
+static void keep_straight_on(vertex *v) {
     graze_surface *s = &v->shading;
-    v->refracts = m->kind == GRAZE_DIELECTRIC;
-    if (p->context->scene->has_refraction)
-        v->beyond = v->refracts ? graze_material_attenuation(m, !v->behind, 1) : p->medium;
-    v->transmitted_ambient = s->transmitted_diffuse;
-    v->transmitted_gloss_is_ambient =
-        s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY &&
-        (1 - m->specularity) * m->transmission * m->transmitted_specularity <= p->context->settings->specular_threshold;
-    if (v->transmitted_gloss_is_ambient)
-        v->transmitted_ambient = rgb_add(v->transmitted_ambient, s->transmitted_specular);
-    if (!rgb_is_black(p->throughput))
-        return;
-    /* The path only looks for lights straight on. */
     s->diffuse = s->specular = s->transmitted_diffuse = v->ambient = v->transmitted_ambient = rgb_gray(0);
     s->specular_lobe = GRAZE_LOBE_NONE;
     if (s->transmitted_lobe != GRAZE_LOBE_TRANSMITTED)
         s->transmitted_lobe = GRAZE_LOBE_NONE;
+    v->function = NULL;
+}
+
+void vertex_set_passage(const path *p, vertex *v) {
+    v->refracts = false;
+    if (p->context->scene->has_refraction)
+        v->beyond = p->medium;
+    if (rgb_is_black(p->throughput))
+        keep_straight_on(v);
+}
+
+static inline void find_ambient_above(const path *p, vertex *v, double specularity) {
+    v->ambient = v->shading.diffuse;
+    v->gloss_is_ambient =
+        v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && specularity <= p->context->settings->specular_threshold;
+    if (v->gloss_is_ambient)
+        v->ambient = rgb_add(v->ambient, v->shading.specular);
+}
+
+static void find_ambient_below(const path *p, vertex *v, double specularity) {
+    const graze_surface *s = &v->shading;
+    v->transmitted_ambient = s->transmitted_diffuse;
+    v->transmitted_gloss_is_ambient =
+        s->transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY && specularity <= p->context->settings->specular_threshold;
+    if (v->transmitted_gloss_is_ambient)
+        v->transmitted_ambient = rgb_add(v->transmitted_ambient, s->transmitted_specular);
+}
+
+/* What only surfaces have that let light through: apart from what all have, which is faster without it. */
+__attribute__((noinline)) static void find_other_side(const path *p, vertex *v, const graze_material *m) {
+    find_ambient_below(p, v, (1 - m->specularity) * m->transmission * m->transmitted_specularity);
+    vertex_set_passage(p, v);
+    v->refracts = m->kind == GRAZE_DIELECTRIC;
+    if (v->refracts)
+        v->beyond = graze_material_attenuation(m, !v->behind, 1);
 }
 
 void vertex_find_ambient(const path *p, vertex *v, const graze_material *m) {
-    v->ambient = v->shading.diffuse;
-    v->gloss_is_ambient =
-        v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && m->specularity <= p->context->settings->specular_threshold;
-    if (v->gloss_is_ambient)
-        v->ambient = rgb_add(v->ambient, v->shading.specular);
+    find_ambient_above(p, v, m->specularity);
     if (v->shading.transmits)
         find_other_side(p, v, m);
 }
 
+void vertex_set_ambient(const path *p, vertex *v, double reflected, double transmitted) {
+    find_ambient_above(p, v, reflected);
+    if (!v->shading.transmits)
+        return;
+    find_ambient_below(p, v, transmitted);
+    vertex_set_passage(p, v);
+}
+
 rgb vertex_function_value(const vertex *v, vec3 direction) {
-    if (!v->function || !(vec3_dot(direction, v->shading.n) > 0))
+    if (!v->function)
         return rgb_gray(0);
+    double cosine = vec3_dot(direction, v->shading.n);
+    rgb color = cosine > 0 ? v->function_color : v->transmitted_function;
     rad_transform t;
+    if (cosine == 0 || (cosine < 0 && !v->shading.transmits) || rgb_is_black(color))
+        return rgb_gray(0);
     if (v->function_scene && scene_material_is_moved(v->function_scene, v->surface, &t))
         direction = rad_transform_direction_back(&t, direction);
-    return rgb_scale(material_reflection_value(v->function, &v->function_point, direction), v->function_color);
+    return rgb_multiply(material_reflection_value(v->function, &v->function_point, direction), color);
 }
 
 /* Whether a path that carries nothing may still find lights behind a surface. */
 static bool looks_through(const path *p, const scene_material *material, int64_t surface) {
     const graze_scene *scene = p->context->scene;
-    bool clear = scene_surface_passes(scene, surface) || material->reflector.kind == GRAZE_DIELECTRIC ||
-                 mirrored_light_is_in(scene, surface);
+    bool clear =
+        scene_surface_passes(scene, surface) || scene_material_bends(material) || mirrored_light_is_in(scene, surface);
     return clear && lobe_scatters(p->last.lobe) && !(rgb_is_black(p->last.direct) && rgb_is_black(p->last.indirect));
+}
+
+/* What the path meets. */
+static const scene_material *material_met(const path *p, const path_hit *hit, int index) {
+    const scene_material *material = &p->context->scene->materials[index];
+    if (material->alternate < 0 || (material->keeps_front && p->scattered && !hit->behind))
+        return material;
+    return scene_material_seen(p->context->scene, material);
+}
+
+/* For the irradiance where a ray hits first: textures do not count, as in Radiance, but the normals of a mesh do. */
+static void prepare_probe(const path *p, const path_hit *hit, vertex *v) {
+    const graze_scene *scene = p->context->scene;
+    vec3 normal = v->normal;
+    if (hit->surface >= (int64_t)scene->surface_count) {
+        normal = appearance_smooth_normal(scene, hit);
+        v->leans = !vec3_is_same(normal, v->normal);
+    }
+    v->shading = probe(normal, vec3_negate(hit->direction));
 }
 
 bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
@@ -71,8 +121,8 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         return false;
     const graze_scene *scene = p->context->scene;
     const scene_surface surface = scene_surface_at(scene, hit->surface);
-    const scene_material *material = &scene->materials[surface.material];
-    if (material->emits || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
+    const scene_material *material = material_met(p, hit, surface.material);
+    if (scene_material_emits(material) || (rgb_is_black(p->throughput) && !looks_through(p, material, hit->surface)))
         return false;
     vec3 normal = hit->behind ? vec3_negate(hit->normal) : hit->normal, view = vec3_negate(hit->direction);
     v->point = hit->point;
@@ -88,11 +138,14 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
         appearance_prepare(p, hit, material, v);
         return true;
     }
-    if (irradiance)
-        v->shading = probe(normal, view);
-    else
-        graze_surface_prepare(&v->shading, &material->reflector,
-                              material->reflector.kind >= GRAZE_DIELECTRIC ? hit->normal : normal, view, NULL);
+    if (irradiance) {
+        prepare_probe(p, hit, v);
+        v->ambient = v->shading.diffuse;
+        v->gloss_is_ambient = false;
+        return true;
+    }
+    graze_surface_prepare(&v->shading, &material->reflector,
+                          material->reflector.kind >= GRAZE_DIELECTRIC ? hit->normal : normal, view, NULL);
     vertex_find_ambient(p, v, &material->reflector);
     return true;
 }

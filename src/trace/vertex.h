@@ -10,6 +10,13 @@ bool vertex_at_hit(const path *, const path_hit *, vertex *);
 /* Sets what the ambient term stands for at a vertex whose shading is prepared from this material. */
 void vertex_find_ambient(const path *, vertex *, const graze_material *);
 
+/* The same by the specularities that are compared with the threshold of the ambient term. */
+void vertex_set_ambient(const path *, vertex *, double reflected, double transmitted);
+
+/* For a surface that transmits and does not refract: sets where the path goes on, and leaves of one that only looks for
+ * lights straight on nothing else. Its ambient terms must be set. */
+void vertex_set_passage(const path *, vertex *);
+
 /* What a vertex's function reflects to the viewer of light from a direction, in 1/sr; black where it has none. */
 rgb vertex_function_value(const vertex *, vec3 direction);
 

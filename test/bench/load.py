@@ -1,14 +1,13 @@
 """Large scenes read, built and asked for their first ray, beside oconv and rtrace; how that grows with the scene; how long a
-small scene takes from the process's start to its answer, and which libraries it loads.
+small scene takes from the process's start to its answer.
 
 Run by `make bench BENCH=load`, which writes the scenes itself: a million triangles in 115 MB of text, and 100,000 primitives of
 mixed kinds. All take turns, and of each the run of the median is shown: processor time, time by the clock, and the most memory.
-RUNS (3) in the environment sets how many runs, PARTS (triangles mixed growth start libraries) which parts.
+RUNS (3) in the environment sets how many runs, PARTS (triangles mixed growth start) which parts.
 """
 
 import glob
 import os
-import re
 import statistics
 import subprocess
 import sys
@@ -21,7 +20,7 @@ BIN = os.environ["BIN"]
 PYRADIANCE = glob.glob(os.environ["GRAZE_PEER"] + "/lib/python3*/site-packages/pyradiance")[0]
 PEER = PYRADIANCE + "/bin"
 RUNS = int(os.environ.get("RUNS", "3"))
-PARTS = os.environ.get("PARTS", "triangles mixed growth start libraries").split()
+PARTS = os.environ.get("PARTS", "triangles mixed growth start").split()
 RAY = b"0 -5 0.1 0 1 0\n"
 HEAD = "void plastic gray 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 100 100 100\nlamp sphere bulb 0 0 4 0 0 3 .1\n"
 TIMES, MEMORY, START = 8, 1024, 6
@@ -134,14 +133,6 @@ gray polygon sail 0 0 9 0 0 2 1 0 2 0 1 2
 gray sphere other 0 0 4 -2 -2 .5 .5
 """
 
-# What scenes load beyond that: a line each, and what it needs.
-FEATURES = [
-    ("a small scene", ""),
-    ("a concave polygon", "gray polygon c 0 0 12 0 0 5 2 0 5 .5 .5 5 0 2 5\n"),
-    ("a pattern by a function", "void brightfunc f 2 sin(Px) . 0 0\nf plastic p 0 0 5 1 1 1 0 0\np sphere s 0 0 4 4 4 4 1\n"),
-    ("an instance", "void instance i 1 SMALL.oct 0 0\n"),
-]
-
 
 def start(folder):
     print("\nprocess start to the answer of 10 primitives, milliseconds: least and median of 100")
@@ -160,25 +151,6 @@ def start(folder):
     judge("milliseconds at least", min(times["gtrace"]), START, most=True)
 
 
-def libraries(folder):
-    print("\nlibraries that a scene loads, by LD_DEBUG")
-    scene, known = os.path.join(folder, "loads.rad"), set()
-    octree = os.path.join(folder, "small.oct")
-    with open(os.path.join(folder, "small.rad"), "w") as file:
-        file.write(SMALL)
-    with open(octree, "wb") as sink:
-        subprocess.run([f"{PEER}/oconv", os.path.join(folder, "small.rad")], stdout=sink, check=True)
-    for name, text in FEATURES:
-        with open(scene, "w") as file:
-            file.write(SMALL + text.replace("SMALL.oct", octree))
-        done = subprocess.run([f"{BIN}/gtrace", "-h", scene], input=RAY, capture_output=True, env=dict(os.environ, LD_DEBUG="libs"))
-        if done.returncode:
-            sys.exit(f"load.py: {done.stderr.decode()[-300:]}")
-        loaded = set(re.findall(r"calling init: \S*/(lib[^/\s]+\.so[^/\s]*)", done.stderr.decode()))
-        print(f"  {name + ':':26s} {' '.join(sorted(loaded - known)) or 'nothing more'}")
-        known |= loaded
-
-
 def main():
     os.environ["RAYPATH"] = ".:" + PYRADIANCE + "/lib"
     with tempfile.TemporaryDirectory() as folder:
@@ -191,7 +163,7 @@ def main():
                 mixed(scene, 100_000)
                 beside_radiance(scene, "100,000 primitives of mixed kinds")
             else:
-                {"growth": growth, "start": start, "libraries": libraries}[part](folder)
+                {"growth": growth, "start": start}[part](folder)
 
 
 main()

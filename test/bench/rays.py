@@ -1,10 +1,10 @@
 """Rays a second: gtrace beside Radiance's rtrace, beside Embree alone over the very rays that are traced, and on two threads;
-irradiance points at rtrace's own error; and what it costs when a scene uses more. Floats in and out.
+and irradiance points at rtrace's own error. Floats in and out.
 
 Run by `make bench BENCH=rays`. What runs on one thread is timed by the processor time of the process, less that of one that
 answers a single ray: others on the machine then disturb it least. Two threads are timed by the clock, and need a quiet machine.
 Medians over alternating runs. Errors: root mean square over the mean, against many samples. RUNS (3) in the environment sets how
-many runs, PARTS (rtrace embree threads points cost) which parts.
+many runs, PARTS (rtrace embree threads points) which parts.
 
 One path a ray (--samples 1) is what an answer of rtrace's at its defaults is to be compared with: it has every light's shadow
 rays, and one specular path. Where nothing casts shadows it is exact but for the specular path, by closed forms; rtrace's own
@@ -27,19 +27,14 @@ EMBREE = os.environ["GRAZE_BENCH_EMBREE"]
 PYRADIANCE = glob.glob(os.environ["GRAZE_PEER"] + "/lib/python3*/site-packages/pyradiance")[0]
 PEER = PYRADIANCE + "/bin"
 RUNS = int(os.environ.get("RUNS", "3"))
-PARTS = os.environ.get("PARTS", "rtrace embree threads points cost").split()
+PARTS = os.environ.get("PARTS", "rtrace embree threads points").split()
 GTRACE, RTRACE = [f"{BIN}/gtrace", "-h", "-ff"], [f"{PEER}/rtrace", "-h", "-ff"]
 ONE_PATH = ["--samples", "1"]
 
 WALLS = """
 void plastic wall 0 0 5 .6 .6 .6 0 0
 void metal2 shiny 4 1 1 0 . 0 6 .6 .6 .6 .8 .05 .2
-void metal mirror 0 0 5 .9 .9 .9 1 0
-void glass pane 0 0 3 .9 .9 .9
-void trans frosted 0 0 7 .8 .8 .8 .03 .2 .7 .6
-void dielectric solid 0 0 5 .9 .9 .9 1.5 0
 void light lamp 0 0 3 10 10 10
-void glow panel 0 0 4 10 10 10 0
 wall polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0
 wall polygon ceiling 0 0 12 0 4 3 4 4 3 4 0 3 0 0 3
 wall polygon south 0 0 12 0 0 0 0 0 3 4 0 3 4 0 0
@@ -59,16 +54,6 @@ PLACES = [(1, 1), (3, 1), (2, 3)]
 
 def spheres(material="shiny"):
     return "".join(f"{material} sphere s{i} 0 0 4 {x} {y} .5 .5\n" for i, (x, y) in enumerate(PLACES))
-
-
-def pane(material):
-    return f"{material} polygon pane 0 0 12 0 0 2 4 0 2 4 4 2 0 4 2\n"
-
-
-def many_lamps(count):
-    side = int(np.ceil(count**0.5))
-    places = [(0.2 + 3.6 * (i % side) / side, 0.2 + 3.6 * (i // side) / side) for i in range(count)]
-    return "".join(lamp(f"lamp{i}", x, y, x + 1.8 / side, y + 1.8 / side) for i, (x, y) in enumerate(places))
 
 
 @functools.cache
@@ -110,6 +95,8 @@ class Bench:
         np.hstack([origins, random.normal(size=origins.shape)]).astype("f4").tofile(self.path("rays"))
         self.rays, self.few = self.path("rays"), self.path("few")
         np.fromfile(self.rays, "f4")[: 6 * 5000].tofile(self.few)
+        self.many = self.path("many")  # for what the clock is to tell
+        np.tile(np.fromfile(self.rays, "f4"), 8).tofile(self.many)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -231,7 +218,7 @@ def two_threads(b):
         scene = b.scene(name, SCENES[name]())
         for options in (["-oLLL"], ONE_PATH, ["--samples", "16"]):
             commands = {n: GTRACE + ["-n", str(n)] + options + [scene] for n in (1, 2)}
-            found = b.measure(commands, b.rays, clock=True)
+            found = b.measure(commands, b.rays if "16" in options else b.many, clock=True)
             judge(f"{name}, {' '.join(options)}", found[1][0] / found[2][0], 1.8)
 
 
@@ -262,53 +249,9 @@ def irradiance_points(b):
         judge(f"times rtrace's points a second at its error, {count / ours:,.0f}/s", seconds / ours, 20)
 
 
-MODIFIERS = {
-    "brightfunc": "void brightfunc painted 2 if(sin(9*Px)*sin(9*Py),1,.6) . 0 0\n",
-    "texfunc": "void texfunc painted 4 .1*noise3a(9*Px,9*Py,9*Pz) .1*noise3b(9*Px,9*Py,9*Pz) .1*noise3c(9*Px,9*Py,9*Pz) . 0 0\n",
-    "mixfunc": "void plastic dark 0 0 5 .3 .3 .3 .02 .1\nvoid plastic light 0 0 5 .6 .6 .6 0 0\n"
-               "void mixfunc wall 4 dark light .5+.5*sin(9*Px) . 0 0\n",
-}
-
-
-def painted(kind):
-    """The walls with a modifier, or of a mixture."""
-    wall = "void plastic wall 0 0 5 .6 .6 .6 0 0\n"
-    return WALLS.replace(wall, MODIFIERS[kind] + (wall.replace("void", "painted") if kind != "mixfunc" else ""))
-
-
-def cost(b):
-    one = lamp("lamp1", 1, 1, 2, 2)
-    rows = [
-        ("an empty room, one light", "one", one, []),
-        ("two lights", "two", TWO_LAMPS, []),
-        ("8 lights", "eight", many_lamps(8), []),
-        ("200 lights", "many", many_lamps(200), []),
-        ("two lights, 3 mirrors", "mirrors", TWO_LAMPS + spheres("mirror"), []),
-        ("two lights, a pane of glass below", "pane", TWO_LAMPS + pane("pane"), []),
-        ("two lights, a frosted pane below", "frosted", TWO_LAMPS + pane("frosted"), []),
-        ("two lights, 3 solid glass spheres", "solid", TWO_LAMPS + spheres("solid"), []),
-        ("two lights, 3 metal2 spheres", "small", SCENES["small"](), []),
-        ("two lights, 100,000 triangles", "mesh", SCENES["mesh"](), []),
-        ("a glow", "glow", lamp("panel1", 1, 1, 2, 2, "panel"), []),
-        ("a glow, -ab 1", "glow", "", ["-ab", "1"]),
-        ("two lights, -ab 1", "two", "", ["-ab", "1"]),
-        ("two lights, -ab 2", "two", "", ["-ab", "2"]),
-    ]
-    commands = {}
-    for label, name, text, options in rows:
-        commands[label] = GTRACE + ["-n", "1"] + options + ONE_PATH + [b.scene(name, text)]
-    for kind in MODIFIERS:
-        commands["two lights, walls with " + kind] = GTRACE + ["-n", "1"] + ONE_PATH + [b.scene(kind, TWO_LAMPS, painted(kind))]
-    found = b.measure(commands, b.rays)
-    print("\ncost grows with what a scene uses: --samples 1, one thread")
-    first = next(iter(found.values()))[0]
-    for label, (seconds, values) in found.items():
-        print(f"  {label:32s} {len(values) / seconds:12,.0f} rays/s  cost {seconds / first:5.2f}")
-
-
 def main():
     os.environ["RAYPATH"] = PYRADIANCE + "/lib"
-    parts = {"rtrace": beside_rtrace, "embree": beside_embree, "threads": two_threads, "points": irradiance_points, "cost": cost}
+    parts = {"rtrace": beside_rtrace, "embree": beside_embree, "threads": two_threads, "points": irradiance_points}
     with tempfile.TemporaryDirectory() as folder:
         b = Bench(folder)
         for part in PARTS:

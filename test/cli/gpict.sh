@@ -35,7 +35,8 @@ check "one thread and two" cmp n1.exr n2.exr
 check "one thread and five" cmp n1.exr n5.exr
 
 # Bad options and scenes.
-fails "no scene" 1 "no scene" "" "$gpict" $view
+fails "no scene" 1 "standard input: there is no scene on it" "" "$gpict" $view
+fails "... nor named" 1 "standard input: there is no scene on it" "" "$gpict" $view -
 fails "a null view direction" 1 "direction" "" "$gpict" -vd 0 0 0 room.rad
 fails "up along the view" 1 "up" "" "$gpict" -vd 0 0 1 room.rad
 fails "a view of 200 degrees" 1 "view" "" "$gpict" -vh 200 room.rad

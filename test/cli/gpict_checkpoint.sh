@@ -63,6 +63,7 @@ fails "other samples" 1 "begun with '--samples 400' and cannot go on with '--sam
 fails "another seed" 1 "'--seed 0' and cannot go on with '--seed 1'" "" "${go_on[@]}" --samples 400 --seed 1 room.rad
 fails "a lens" 1 "'-pd 0'" "" "${go_on[@]}" --samples 400 -pd .1 room.rad
 sed 's/9 9 9/9 9 8/' room.rad >other.rad
+fails "other definitions" 1 "begun with another scene" "" "${go_on[@]}" --samples 400 -e other=1 room.rad
 fails "another scene" 1 "begun with another scene" "" "${go_on[@]}" --samples 400 other.rad
 fails "another view" 1 "another view" "" "${go_on[@]}" --samples 400 -vp 1 0 0 room.rad
 fails "another size" 1 "begun as 40 x 30 pixels" "" "${go_on[@]}" --samples 400 -x 41 -y 30 -pa 0 room.rad

@@ -40,6 +40,9 @@ fails "distances without a number" 1 "%d" "" "$gpict" -S 1 -o %d.hdr -z z room.r
 fails "the scene where the views come from" 1 "-" "" "$gpict" -S 1 -
 fails "a view that is none" 1 "standard input:2: zero view direction" "\nVIEW= -vd 0 0 0\nVIEW= -vd 0 1 0\n" "$gpict" -S 1 "${small[@]}" -o h%d.hdr room.rad
 check "... does not keep the others back" test ! -e h1.hdr -a -s h2.hdr
+printf 'VIEW= -vp 0 0 0 -vh 30\nVIEW= -vh 50\n' | "$gpict" -S 1 "${small[@]}" -o right%d.hdr room.rad
+fails "a view that cannot be" 1 "standard input:2: " "VIEW= -vp 0 0 0 -vh 30\nVIEW= -vp 5 5 5 -vh 400\nVIEW= -vh 50\n" "$gpict" -S 1 "${small[@]}" -o h%d.hdr room.rad
+check "... changes nothing for the next" sh -c "grep -a ^VIEW= right2.hdr >a; grep -a ^VIEW= h3.hdr | cmp - a"
 fails "a view with a word amiss" 1 "standard input:1:7: option '-vd'" "VIEW= -vd 0 y 0\nVIEW= -vd 0 1 0\n" "$gpict" -S 1 "${small[@]}" -o i%d.hdr room.rad
 check "... has its number all the same" test ! -e i1.hdr -a -s i2.hdr
 
@@ -98,6 +101,19 @@ check "-ps above 16 is 16, with a warning" sh -c "$gpict -ps 20 ${small[*]} -o p
 
 "$gpict" -defaults >defaults
 check "-defaults can be read again" sh -c "$gpict @defaults -defaults | cmp - defaults"
+"$gpict" -o a.hdr -o 'b c.exr' -ro d.hdr -e 'x = 1' -f y.cal -vtl -defaults >defaults
+check "... with files and definitions" sh -c "$gpict @defaults -defaults | cmp - defaults"
+for words in "-o a.hdr -o 'b c.exr'" "-ro d.hdr" "-e 'x = 1' -f y.cal" -vtl; do
+    check "... has $words" sh -c "cut -f 1 defaults | grep -qxF -- \"\$1\"" - "$words"
+done
+"$gpict" -r e.hdr -o a.hdr -defaults | cut -f 1 | grep -qx -- "-r e.hdr"
+result $? "... or -r"
+
+# The scene by standard input, as rpict takes it.
+"$gpict" "${small[@]}" room.rad | sed 1,2d >one.hdr
+check "a scene by standard input" sh -c "'$gpict' ${small[*]} <room.rad | sed 1,2d | cmp - one.hdr"
+check "... named by a minus sign" sh -c "'$gpict' ${small[*]} - <room.rad | sed 1,2d | cmp - one.hdr"
+fails "none for a sequence, whose views come there" 1 "no scene" "" "$gpict" -S 1 "${small[@]}" -o h%d.hdr
 
 # The command lines of rpict's users.
 accepted() { check "accepts $*" "$gpict" "${small[@]}" "$@" -o accepted.hdr room.rad; }
@@ -105,6 +121,7 @@ accepted -i -u -bv -dt .1 -dc .5 -dj .9 -ds .2 -dr 1 -dp 256 -dv -ss 1 -st .1 -a
 accepted -dp 256 -ar 48 -ms 1 -ds .2 -dj .9 -dt .1 -dc .5 -dr 1 -ss 1 -st .1 -ab 2 -aa .1 -ad 1536 -as 392 -av 25 25 25 -lr 8 -lw 1e-4
 accepted -pa 1 -pj .67 -pm 0 -pd 0 -ps 4 -pt .05 -t 0 -w+ -pRGB -vtv -vp 0 0 0 -vd 0 1 0 -vu 0 0 1 -vh 45 -vv 45 -vo 0 -va 0 -vs 0 -vl 0
 echo red >mods
+echo "a = 2;" >x.cal
 accepted -ae red -aE mods -ap photons 50 -am 1 -ac 100 -aC 4k -me 0 0 0 -ma .1 .1 .1 -mg .5 -ms 2 -cs 3 -cw 780 380 -f x.cal -e 'a=1;' -P server
 accepted -ai red -aI mods -PP pool -w- -lr -10 -n 2
 "$gpict" -x 4 -y 4 -e messages -ps 20 -t 1000 --samples 4 -o accepted.hdr room.rad 2>err

@@ -23,6 +23,7 @@ check "nothing hit" test "$(echo "0 0 1 1 0 0" | "$gtrace" -h -osmLNp room.rad)"
     "$(printf '*\t*\t1.000000e+10\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t1.000000e+00\t')"
 check "a zero direction asks for an empty record" test "$(echo "1 2 3 0 0 0" | "$gtrace" -h -ovLs room.rad)" = \
     "$(printf '0.000000e+00\t0.000000e+00\t0.000000e+00\t1.000000e+10\t*\t')"
+check "-ld does not look at its end" test "$(echo "0 0 1 0 0 -1" | "$gtrace" -h -ld -osp room.rad)" = "$(printf '*\t%e\t%e\t%e\t' 0 0 0)"
 check "-ld looks no farther" test "$(echo "0 0 1 0 0 -.5" | "$gtrace" -h -ld -os room.rad)" = "$(printf '*\t')"
 check "the light's radiance, without error" test "$(echo "0 0 2 0 1 0" | "$gtrace" -h -ove room.rad)" = \
     "$(printf '9.000000e+00\t9.000000e+00\t9.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t')"

@@ -29,7 +29,7 @@ other_bytes() { ask "$@" >answers && ! cmp -s answers plain; }
 
 for option in "-aa .1" "-ar 256" "-as 64" "-ad 64" "-aw 8" "-af nowhere.amb" "-ap nowhere.pm" "-ap nowhere.pm 40" "-ap nowhere.pm 40 50" \
     "-am 1.5" "-ac 4" "-aC 1M" "-dt .1" "-dc .5" "-dj .9" "-ds .2" "-dr 1" "-dp 256" "-ss 4" "-u" "-u+" "-u-" "-me 0 0 0" "-ma .5 .5 .5" \
-    "-mg .8" "-ms 1" "-cs 3" "-cs 20" "-cw 380 780" "-co" "-co+" "-pRGB" "-P control" "-PP control" "-f nowhere.cal" "-e A:1" "-e f(x)=x" \
+    "-mg .8" "-ms 1" "-cs 3" "-cs 20" "-cw 380 780" "-co" "-co+" "-pRGB" "-P control" "-PP control" "-e A:1" "-e f(x)=x" \
     "-n 3" "-w" "-x 1" "-ti shiny"; do
     # shellcheck disable=SC2086
     same $option
@@ -61,6 +61,37 @@ printf '%b' "$down" | "$gtrace" -h -faf -ood room.rad >ray.float
 quiet "pyradiance: floats, a header, many processes" sh -c "'$gtrace' -ff -h+ -ab 1 -n 4 room.rad <ray.float | tail -c 12 | od -An -tf4 | grep -q '[0-9]'"
 quiet "bifacial_radiance's picture" sh -c "'$BIN/gpict' -dp 256 -ar 48 -ms 1 -ds .2 -dj .9 -dt .1 -x 4 -y 4 -vp 0 0 1 -i room.rad >picture.hdr"
 
+# Definitions for function files. What they give is what rtrace gives.
+mkdir -p library
+echo 'bright = 5*other;' >library/own.cal
+echo 'other = 2*Dz;' >library/outer.cal
+for file in . own.cal; do
+    printf 'void brightfunc p 2 bright %s 0 0\np glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n' "$file" >"by_$file.rad"
+done
+# defined VALUE FILE OPTION...: the value that the scene with that function file has with the options.
+defined() { check "${*:3}: ${2/#./no file} gives $1" defined_gives "$@"; }
+defined_gives() { RAYPATH=:library "$gtrace" -h -w- -pA "${@:3}" "by_$2.rad" <<<"0 0 0 0 0 1" >answers; test "$(<answers)" = "$(printf '%e\t' "$1")"; }
+defined 3 . -e bright=3
+defined 6 . -e 'b(x) : 2*x; bright = b(3)'
+defined 2 . -f outer.cal -e bright=other
+defined 2 . -f outer.cal -e bright:2
+defined 9 . -e bright=3 -e bright=9
+defined 2 . -e bright=7 -e other=4 -f outer.cal -e bright=other
+defined 4 . -f outer.cal -e bright=other -e other=4
+defined 8 . -e A1=8 -e bright=A1
+defined 10 own.cal -f outer.cal
+defined 10 own.cal -f outer.cal -e bright=7
+defined 35 own.cal -e 'other`own=7' -e other=1
+unset -f defined
+fails "a definition that is none" 1 "-e bright=:1:8: the expression ends too early" "" "$gtrace" -e x=1 -e bright= by_..rad
+fails "... also where nothing needs it" 1 "-e x=:1:3" "" "$gtrace" -e x= room.rad
+fails "a name that is still not defined" 1 "there is no variable other" "" env RAYPATH=:library "$gtrace" -e 'other`else=1' by_own.cal.rad
+fails "a function file that is not there" 1 "no function file nowhere.cal" "" "$gtrace" -f nowhere.cal room.rad
+printf 'a = 1;\n= 2;\n' >wrong.cal
+fails "a function file with a mistake" 1 "wrong.cal:2:1" "" "$gtrace" -f wrong.cal room.rad
+RAYPATH=:library "$gtrace" -h -f outer.cal -e 'A1=8' by_own.cal.rad </dev/null 2>&1 | grep -q "warning: -e A1=8:1:1: 'A1' is defined again"
+result $? "a name that all scenes have gets a warning"
+
 # Modifiers that interreflection leaves out or is for.
 ambient() { echo "0 0 1 0 1 .5" | "$gtrace" -h --samples 64 -ab 1 -av .1 .1 .1 "$@" room.rad; }
 left_out=$(ambient -ab 0)
@@ -78,7 +109,11 @@ result $? "a modifier that is not there gets a warning"
 fails "some left out and some alone" 1 "not both" "" "$gtrace" -ae dull -ai shiny room.rad
 fails "a file that is not there" 1 "nowhere" "" "$gtrace" -aE nowhere room.rad
 : >empty
-fails "a file without names" 1 "empty" "" "$gtrace" -aI empty room.rad
+check "a file without names excludes nothing" test "$(ambient -aE empty 2>err)" = "$(ambient)"
+check "... with a warning" grep -q "warning: empty: no modifier" err
+check "... and includes nothing" test "$(ambient -aI empty 2>err)" = "$left_out"
+check "... which -defaults knows" test "$("$gtrace" -aI empty -te x -defaults 2>err | grep '^-[at][eEiI]' | cut -f 1 | tr '\n' ' ')" = "-te x -aI /dev/null "
+fails "... and not with others" 1 "not both" "" "$gtrace" -aI empty -ae dull room.rad
 fails "-ae without a name" 1 "'-ae'" "" "$gtrace" -ae
 
 # Colors.
@@ -112,6 +147,21 @@ check "... and of the rest" test "$(echo "0 -4 3 0 4 -3" | "$gtrace" -h -fac -ox
 echo "0 -4 3 0 4 -3" | "$gtrace" -h -i -orx mirror.rad 2>&1 >answer | grep -q 'no mirrors'
 result $? "-i has no mirrors, and says so"
 
+# What a sensor has of a mirror is nothing, and its value is not counted twice for that.
+check "-I with what mirrors show" test "$(value -I -orxv -w- | cut -f 1-3,4-6)" = "$(value -I -ovx -w- | awk '{ print "0.000000e+00\t0.000000e+00\t0.000000e+00\t" $4 "\t" $5 "\t" $6 }')"
+check "... the value is the same" test "$(value -I -ovl -w- | cut -f 1-3)" = "$(value -I | cut -f 1-3)"
+
+# A surface that is passed from behind is what was met; the light and the length seen are those of what is behind it.
+cat >hidden.rad <<'END_OF_SCENE'
+void plastic grey 0 0 5 .5 .5 .5 0 0
+void glow lit 0 0 4 2 2 2 0
+grey polygon sheet 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1
+lit polygon ceiling 0 0 12 -1 -1 3 -1 1 3 1 1 3 1 -1 3
+END_OF_SCENE
+check "-bv-" test "$(echo "0 0 .5 0 0 1" | "$gtrace" -h -bv- -ovlXLsmpnN hidden.rad)" = \
+    "$(printf '%e\t' 2 2 2 2.5 2.5 .5; printf 'sheet\tgrey\t'; printf '%e\t' 0 0 1 0 0 1 0 0 1)"
+check "... without light" test "$(echo "0 0 .5 0 0 1" | "$gtrace" -h -bv- -oLs hidden.rad)" = "$(printf '%e\tsheet\t' .5)"
+
 # Messages.
 "$gtrace" -e messages -h -oV room.rad <rays >answers 2>err
 check "-e: nothing on standard error" test ! -s err
@@ -133,7 +183,7 @@ fails "-features behind another option" 1 "first" "" "$gtrace" -w -features
 # All that can be set is printed, and read again.
 "$gtrace" -ae 'a b' -aE list -te x -tI list -pc .7 .3 .2 .7 .15 .05 .3127 .3290 -e log -fad -oTsV -me 0 0 0 -cs 20 -ac 3 -defaults >defaults 2>err
 check "-te and -tI do not go together, with -defaults either" grep -q 'not both' err
-"$gtrace" -ae 'a b' -aE list -ti x -tI list -pc .7 .3 .2 .7 .15 .05 .3127 .3290 -e log -fad -oTsV -me 0 0 0 -cs 20 -ac 3 -defaults >defaults
-check "-defaults tells what was set" bash -c "grep -q \"^-ae 'a b' -ae shiny -ae dull\" defaults && grep -q '^-ti x -ti shiny -ti dull' defaults && grep -q '^-pc 0.7 0.3' defaults && grep -q '^-e log' defaults"
+"$gtrace" -ae 'a b' -aE list -ti x -tI list -pc .7 .3 .2 .7 .15 .05 .3127 .3290 -e log -e 'a = 1;b = 2' -f x.cal -e c:2 -fad -oTsV -me 0 0 0 -cs 20 -ac 3 -defaults >defaults
+check "-defaults tells what was set" bash -c "grep -q \"^-ae 'a b' -ae shiny -ae dull\" defaults && grep -q '^-ti x -ti shiny -ti dull' defaults && grep -q '^-pc 0.7 0.3' defaults && grep -q \"^-e log -e 'a = 1;b = 2' -f x.cal -e c:2\" defaults"
 check "... re-readable" bash -c "'$gtrace' @<(sed 's/#.*//' defaults) -defaults | cmp - defaults"
 plan

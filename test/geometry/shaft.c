@@ -433,6 +433,39 @@ static void lamps_and_balls_in_line(void **state) {
     assert_true(sum.hidden > 200);
 }
 
+/* All light is hidden from a point that a globe keeps apart from the lamp; what touches it may be seen. */
+static void globes_without_a_gap(void **state) {
+    (void)state;
+    dice d = {12};
+    score sum = {0};
+    for (int i = 0; i < 600; i++) {
+        world w = {.scale = roll_size(&d, 1e-3, 1e3)};
+        vec3 way = vec3_make(roll_between(&d, -1, 1), roll_between(&d, -1, 1), roll_between(&d, 0.2, 1));
+        vec3 lamp = vec3_scale(w.scale, way), normal = vec3_normalize(way);
+        double size = vec3_length(lamp), near = roll_between(&d, 0.01, 0.1) * size;
+        geometry_sight sight = {.point = w.corner, .normal = normal, .from = -1, .light = i % 4 == 3 ? -1 : 0};
+        if (i % 4 == 0)
+            add_lamp(&w, make_sphere(lamp, near));
+        else if (i % 4 == 1)
+            add_lamp(&w, make_ring(lamp, vec3_negate(normal), 0, near));
+        else
+            add_lamp(&w, quadrangle(&w, (double[4][3]){{way.x, way.y, way.z},
+                                                       {way.x, way.y + .05, way.z},
+                                                       {way.x + .05, way.y + .05, way.z},
+                                                       {way.x + .05, way.y, way.z}}));
+        sight.axis = normal;
+        sight.half_angle = 0.3;
+        bool around_lamp = i % 8 < 4 && i % 4 != 3;
+        vec3 middle = vec3_add_scaled(around_lamp ? lamp : w.corner, 0.3 * near, roll_direction(&d));
+        add(&w, make_sphere(middle, (i % 16 < 8 ? 3 : 1.25) * near));
+        build(&w);
+        check_sight(&w, &d, &sight, &sum);
+        geometry_destroy(w.geometry);
+    }
+    assert_true(sum.hidden > 500);
+    assert_useful(&sum, 0, 0.85);
+}
+
 /* A star that is drawn in one stroke is open in its middle. */
 static void a_star(void **state) {
     (void)state;
@@ -500,6 +533,9 @@ static void unprepared(void **state) {
     geometry_destroy(w.geometry);
     assert_int_equal(geometry_build(&w.geometry, &(geometry_group){0}, 1, 1, &report), GRAZE_OK);
     assert_int_equal(geometry_prepare_sights(w.geometry, &report), GRAZE_OK);
+    /* Nothing is in the way where there is nothing. */
+    sight = (geometry_sight){.normal = {0, 0, 1}, .from = -1, .light = -1, .axis = {0, 0, 1}, .half_angle = 0.1};
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_CLEAR);
     geometry_destroy(w.geometry);
 }
 
@@ -512,6 +548,7 @@ int main(void) {
         cmocka_unit_test(a_plane_and_a_lamp),
         cmocka_unit_test(a_lamp_and_a_ball),
         cmocka_unit_test(lamps_and_balls_in_line),
+        cmocka_unit_test(globes_without_a_gap),
         cmocka_unit_test(a_star),
         cmocka_unit_test(trees_by_threads_are_the_same),
         cmocka_unit_test(unprepared),

@@ -20,7 +20,6 @@ static void unsupported_types_are_refused_by_name(void **state) {
     (void)state;
     assert_refused("\nvoid mist pane 0 0 0\npane sphere s 0 0 4 0 0 0 1\n", ":2:1: mist pane", "not supported");
     assert_refused("void BSDF d 6 0 a.xml 0 0 1 . 0 0 d sphere s 0 0 4 0 0 0 1\n", ":1:1: BSDF d", "not supported");
-    assert_refused("void illum i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "not supported");
     assert_refused("void plastic m 0 0 5 1 1 1 0 0\nm instance i 1 other.oct 0 0\n", ":2:1: instance i",
                    "cannot find octree file \"other.oct\"");
     assert_refused("void specfile p 1 noise 0 0\np plastic m 0 0 5 1 1 1 0 0 m sphere s 0 0 4 0 0 0 1\n",
@@ -39,6 +38,38 @@ static void lights_are_checked(void **state) {
     assert_refused("void spotlight l 0 0 7 1 1 1 10 0 0 0 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "null");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 0 1\n", "source s", "direction");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 0\n", "source s", "angle");
+}
+
+static void illums_are_checked(void **state) {
+    (void)state;
+    assert_refused("void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "1 string at most");
+    assert_refused("void illum i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "no modifier 'a' before");
+    assert_refused("void light l 0 0 3 1 1 1 void illum i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "illum i",
+                   "seen as l, which shines");
+    assert_refused("void plastic p 0 0 3 1 1 1 void illum i 1 p 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "plastic p",
+                   "real");
+}
+
+static void prisms_are_checked(void **state) {
+    (void)state;
+    assert_refused("void prism1 i 4 1 Dx Dy Dz 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: prism1 i", "string");
+    assert_refused("void prism1 i 5 1 Dx Dy bad . 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: prism1 i", "bad");
+    assert_refused("void prism1 p 5 1 Dx Dy Dz . 0 0 void plastic q 0 0 5 1 1 1 0 0 void mixfunc i 4 p q .5 . 0 0 "
+                   "i sphere s 0 0 4 0 0 0 1\n",
+                   "mixfunc i", "a prism");
+    graze_scene *scene = scene_from_text("void prism1 i 5 1 DxA Dy Dz . 0 0 i sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_non_null(strstr(messages, "prism1 i: DxA, DyA and DzA are 0"));
+    graze_scene_destroy(scene);
+}
+
+static void alternates_of_mirrors_are_checked(void **state) {
+    (void)state;
+    assert_refused("void mirror i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i", "1 string");
+    assert_refused("void mirror i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i",
+                   "no modifier 'a' before");
+    assert_refused("void glow l 0 0 4 1 1 1 0 void mirror i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "mirror i",
+                   "seen as l, which shines");
 }
 
 static void all_mistakes_are_told_at_once(void **state) {
@@ -151,13 +182,44 @@ static void nothing_is_loaded_for_patterns_that_are_not_there(void **state) {
 
 static void mixtures_are_checked(void **state) {
     (void)state;
-    assert_refused("void plastic p 0 0 5 1 1 1 0 0 void mixfunc m 4 p void .5 . 0 0 m sphere s 0 0 4 0 0 0 1",
-                   ":1:32: mixfunc m", "void is not supported yet");
-    assert_refused("void plastic p 0 0 5 1 1 1 0 0 void light l 0 0 3 1 1 1 void mixfunc m 4 p l .5 . 0 0 "
+    assert_refused("void dielectric d 0 0 5 1 1 1 1.5 0 void mixfunc m 4 d void .5 . 0 0 m sphere s 0 0 4 0 0 0 1",
+                   ":1:37: mixfunc m", "a mixture with a dielectric or a prism is not supported");
+    assert_refused("void brightfunc p 2 1 . 0 0 void plastic a 0 0 5 1 1 1 0 0 void mixfunc m 4 a p .5 . 0 0 "
+                   "m sphere s 0 0 4 0 0 0 1 p sphere t 0 0 4 3 0 0 1",
+                   ":1:1: brightfunc p", "there is no material behind it");
+    assert_refused("void glow g 0 0 4 1 1 1 0 void light l 0 0 3 1 1 1 void mixfunc m 4 g l .5 . 0 0 "
                    "m sphere s 0 0 4 0 0 0 1",
-                   "mixfunc m", "shines");
+                   "mixfunc m", "a mixture of two materials that shine is not supported");
+    assert_refused("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m source s 0 0 4 0 0 1 9", "source s",
+                   "a source that shines by a mixture is not supported");
     assert_refused("void mixfunc m 4 void void .5 . 0 0 m sphere s 0 0 4 0 0 0 1", ":1:1: mixfunc m",
                    "there is no material behind it");
+}
+
+/* One light for all surfaces, which is none that is sampled; lamps are told of, a glow that is seen only anyway is not.
+ */
+static void mixtures_that_shine_are_seen_only(void **state) {
+    (void)state;
+    const char *text = "void light l 0 0 3 1 2 1 void plastic p 0 0 5 1 1 1 0 0 void mixfunc m 4 %s p .5 . 0 0 "
+                       "void mixfunc n 4 m void .5 . 0 0 n sphere s 0 0 4 0 0 0 1 m sphere t 0 0 4 3 0 0 1 "
+                       "l sphere lamp 0 0 4 9 0 0 1 void glow g 0 0 4 1 1 1 0";
+    char with[400];
+    snprintf(with, sizeof with, text, "l");
+    graze_scene *scene = scene_from_text(with);
+    assert_non_null(scene);
+    assert_int_equal(scene->light_count, 1);
+    assert_int_equal(scene->seen_light_count, 1);
+    assert_int_equal(scene->surfaces[0].light, 1);
+    assert_int_equal(scene->surfaces[1].light, 1);
+    assert_int_equal(scene->surfaces[2].light, 0);
+    assert_true(scene->lights[1].only_seen && scene->lights[1].radiance.g == 2);
+    assert_non_null(strstr(messages, "sphere s: shines, but lights nothing: what is in a mixture is seen only"));
+    assert_null(strstr(messages, "sphere t"));
+    graze_scene_destroy(scene);
+    scene = scene_from_text("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m sphere s 0 0 4 0 0 0 1");
+    assert_non_null(scene);
+    assert_string_equal(messages, "");
+    graze_scene_destroy(scene);
 }
 
 static void an_empty_scene_is_a_scene(void **state) {
@@ -172,6 +234,9 @@ int main(void) {
         cmocka_unit_test(unsupported_types_are_refused_by_name),
         cmocka_unit_test(surfaces_need_a_material),
         cmocka_unit_test(lights_are_checked),
+        cmocka_unit_test(illums_are_checked),
+        cmocka_unit_test(prisms_are_checked),
+        cmocka_unit_test(alternates_of_mirrors_are_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),
@@ -180,6 +245,7 @@ int main(void) {
         cmocka_unit_test(models_are_for_materials_that_reflect),
         cmocka_unit_test(nothing_is_loaded_for_patterns_that_are_not_there),
         cmocka_unit_test(mixtures_are_checked),
+        cmocka_unit_test(mixtures_that_shine_are_seen_only),
         cmocka_unit_test(an_empty_scene_is_a_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -143,6 +143,45 @@ static void irradiance_of_a_sphere_a_ring_and_the_sun(void **state) {
         }
 }
 
+/* As in Radiance, each of several suns lights, the first is seen, and what a glow has behind a sun does not count. */
+static void sources_that_overlap(void **state) {
+    (void)state;
+    static const char lights[] =
+        "void glow g 0 0 4 2 2 2 0 g source haze 0 0 4 0 0 1 60 g source more 0 0 4 0 0 1 40\n"
+        "void light a 0 0 3 3 3 3 a source sun 0 0 4 0 0 1 20\n"
+        "void light b 0 0 3 10 10 10 b source other 0 0 4 0 0 1 10 b source again 0 0 4 0 0 1 20\n";
+    double small = pow(sin(angle_radians(5)), 2), sun = pow(sin(angle_radians(10)), 2), haze = 0.25;
+    double direct = PI * (3 * sun + 10 * small + 10 * sun), both = direct + 2 * PI * (haze - sun);
+    for (int strategy = 0; strategy < 3; strategy++) {
+        graze_trace_settings s = settings_for((graze_strategy)strategy, 0);
+        assert_answer(ask(lights, s, (graze_ray){.direction = {0, .1, 1}}), 3, 1e-12);
+        s.quantity = GRAZE_IRRADIANCE;
+        assert_answer(ask(lights, s, sensor), direct, 0.002);
+        s.ambient_bounces = 1;
+        assert_answer(ask(lights, s, sensor), both, 0.005);
+    }
+}
+
+/* Where light samples, reflections, and what is known without them meet: some of each of the suns is hidden. */
+static void glossy_under_suns_that_overlap(void **state) {
+    (void)state;
+    static const char text[] = "void light a 0 0 3 3 3 3 a source sun 0 0 4 0 0 1 60 a source other 0 0 4 0 .6 1 40\n"
+                               "void glow g 0 0 4 2 2 2 0 g source haze 0 0 4 0 -.5 1 90\n"
+                               "void metal m 0 0 5 .7 .7 .7 .8 .2 m polygon f 0 0 12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n"
+                               "void plastic black 0 0 5 0 0 0 0 0 black sphere ball 0 0 4 .5 .2 2 .6\n";
+    const graze_ray ray = {.origin = {0, -2, 2}, .direction = {0, 2, -2}};
+    graze_answer truth = {.samples = 0};
+    for (int strategy = 0; strategy < 3; strategy++) {
+        graze_trace_settings s = settings_for((graze_strategy)strategy, 1);
+        s.error = 0.002;
+        graze_answer answer = ask(text, s, ray);
+        if (strategy == 0)
+            truth = answer;
+        double error = hypot(truth.standard_error.g, answer.standard_error.g);
+        assert_true(fabs(answer.value.g - truth.value.g) < 4 * error && error < 0.005 * truth.value.g);
+    }
+}
+
 /* A long thin tube of light at distance d: E = pi L r/d (1 - ...) is a line source; here by a fine independent
  * quadrature over the lit half of the cylinder. */
 static double cylinder_irradiance(double radius, double half_length, double height) {
@@ -389,6 +428,8 @@ int main(void) {
         cmocka_unit_test(closed_box_with_ambient_value),
         cmocka_unit_test(irradiance_of_a_rectangle),
         cmocka_unit_test(irradiance_of_a_sphere_a_ring_and_the_sun),
+        cmocka_unit_test(sources_that_overlap),
+        cmocka_unit_test(glossy_under_suns_that_overlap),
         cmocka_unit_test(irradiance_of_a_cylinder),
         cmocka_unit_test(mirror_image_of_a_light),
         cmocka_unit_test(strategies_agree_on_a_glossy_floor),

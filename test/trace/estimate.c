@@ -15,29 +15,29 @@ static int calls;
 
 /* exp(x + y) has the mean (e - 1)^2 over the unit square. */
 static const double smooth_mean = 2.9524924420125602;
-static path_sample smooth(void *user, sampler *points, estimate_luck *luck) {
+static void smooth(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     (void)user;
     double u[2];
     sampler_2d(points, u);
     *luck = ESTIMATE_NOISY;
     calls++;
-    return (path_sample){.radiance = rgb_gray(exp(u[0] + u[1]))};
+    *sample = (path_sample){.radiance = rgb_gray(exp(u[0] + u[1]))};
 }
 
 /* A quarter disk: 1 inside, 0 outside. */
-static path_sample disk(void *user, sampler *points, estimate_luck *luck) {
+static void disk(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     (void)user;
     double u[2];
     sampler_2d(points, u);
     *luck = ESTIMATE_NOISY;
-    return (path_sample){.radiance = rgb_gray(u[0] * u[0] + u[1] * u[1] < 1)};
+    *sample = (path_sample){.radiance = rgb_gray(u[0] * u[0] + u[1] * u[1] < 1)};
 }
 
-static path_sample constant(void *user, sampler *points, estimate_luck *luck) {
+static void constant(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     (void)points;
     *luck = ESTIMATE_EXACT;
     calls++;
-    return (path_sample){.radiance = *(rgb *)user};
+    *sample = (path_sample){.radiance = *(rgb *)user};
 }
 
 static graze_trace_settings fixed(uint32_t samples) {
@@ -72,13 +72,13 @@ static void an_exact_answer_takes_one_sample(void **state) {
 }
 
 /* A sum of a sequence's points' independent coins: no better than independent samples. */
-static path_sample coin(void *user, sampler *points, estimate_luck *luck) {
+static void coin(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     (void)user;
     double coins = 0;
     for (int i = 0; i < 8; i++)
         coins += (uint64_t)(sampler_1d(points) * 0x1p53) & 1;
     *luck = ESTIMATE_NOISY;
-    return (path_sample){.radiance = rgb_gray(coins)};
+    *sample = (path_sample){.radiance = rgb_gray(coins)};
 }
 
 typedef struct coverage {
@@ -142,19 +142,18 @@ static void one_sample_has_no_error(void **state) {
 
 /* A light half hidden, which is noise, beside other noise. The control, of mean 0, is what it would be if it were not
  * hidden; the share that the other half found takes away some of its noise and does not shift the mean. */
-static path_sample half_shadowed(void *user, sampler *points, estimate_luck *luck) {
+static void half_shadowed(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     double u[2];
     sampler_2d(points, u);
     /* Low digits, which are as if independent. */
     bool lit = fmod(u[0] * 0x1p20, 1) < 0.5;
     double light = fmod(u[1] * 0x1p20, 1) < 0.1 ? 10 : 0;
     *luck = ESTIMATE_NOISY;
-    path_sample sample = {.radiance = rgb_gray(lit ? light : 0)};
+    *sample = (path_sample){.radiance = rgb_gray(lit ? light : 0)};
     if (*(bool *)user) {
-        sample.controls[0] = (path_control){rgb_gray(1 - light), lit ? light : 0, light};
-        sample.control_count = 1;
+        sample->controls[0] = (path_control){rgb_gray(1 - light), lit ? light : 0, light};
+        sample->control_count = 1;
     }
-    return sample;
 }
 
 static void controls_help_and_do_not_shift(void **state) {
@@ -193,14 +192,14 @@ static void stops_at_the_error_asked_for(void **state) {
 }
 
 /* Mostly a little, and few samples find what matters: the mean is 1. */
-static path_sample seldom(void *user, sampler *points, estimate_luck *luck) {
+static void seldom(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     double chance = *(double *)user, u[2], v[2];
     sampler_2d(points, u);
     sampler_2d(points, v);
     *luck = ESTIMATE_NOISY;
     /* Low digits, which are as if independent. */
     double found = fmod(u[0] * 0x1p20, 1) < chance ? 2 * 0.97 / chance * u[1] : 0;
-    return (path_sample){.radiance = rgb_gray(0.06 * v[0] + found)};
+    *sample = (path_sample){.radiance = rgb_gray(0.06 * v[0] + found)};
 }
 
 /* Above and below the floor alike: estimates are right on the average, as likely within their errors as they say, and
@@ -232,11 +231,11 @@ static void what_is_below_the_floor_is_true(void **state) {
 }
 
 /* Zeros, as from a light that has not been found yet, or as from an empty pixel. */
-static path_sample zero(void *user, sampler *points, estimate_luck *luck) {
+static void zero(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     double u[2];
     sampler_2d(points, u);
     *luck = *(estimate_luck *)user;
-    return (path_sample){.radiance = rgb_gray(0)};
+    *sample = (path_sample){.radiance = rgb_gray(0)};
 }
 
 static void zeros_need_many_samples_unless_certain(void **state) {
@@ -252,10 +251,10 @@ static void zeros_need_many_samples_unless_certain(void **state) {
 }
 
 /* A search takes many samples however small their scatter. */
-static path_sample search(void *user, sampler *points, estimate_luck *luck) {
+static void search(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     (void)user;
     *luck = ESTIMATE_SEARCH;
-    return (path_sample){.radiance = rgb_gray(1 + 1e-3 * sampler_1d(points))};
+    *sample = (path_sample){.radiance = rgb_gray(1 + 1e-3 * sampler_1d(points))};
 }
 
 static void searches_need_many_samples(void **state) {

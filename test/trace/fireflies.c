@@ -33,7 +33,8 @@ static double brightest(const graze_scene *scene, graze_strategy strategy, vec3 
     enum { SAMPLES = 4000 };
     for (uint32_t i = 0; i < SAMPLES; i++) {
         sampler points = sampler_start(sampler_key(1, 2, 3), i);
-        path_sample sample = path_radiance(&context, &first, &points);
+        path_sample sample;
+        path_radiance(&context, &first, &points, &sample);
         assert_true(isfinite(sample.radiance.g) && sample.radiance.g >= 0);
         most = fmax(most, sample.radiance.g);
         sum += sample.radiance.g;

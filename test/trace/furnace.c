@@ -128,16 +128,22 @@ static void clear_things_in_a_white_world(void **state) {
     const char *text = "void glow w 0 0 4 3 3 3 0 w bubble world 0 0 4 0 0 0 20\n"
                        "void glass g 0 0 3 1 1 1\nvoid dielectric d 0 0 5 1 1 1 1.5 0\n"
                        "void interface i 0 0 8 1 1 1 1.3 1 1 1 1.5\nvoid trans t 0 0 7 1 1 1 .05 0 .6 .7\n"
-                       "void trans m 0 0 7 1 1 1 0 0 .7 0\n"
+                       "void trans m 0 0 7 1 1 1 0 0 .7 0\nvoid transfunc f 2 if . 0 6 1 1 1 .1 .6 .3\n"
+                       "void BRTDfunc b 10 .2 .2 .2 .3 .3 .3 0 0 0 . 0 9 .3 .3 .3 .3 .3 .3 .2 .2 .2\n"
+                       "void WGMDfunc c 13 void .1 0 0 void .2 0 0 void 1 0 0 . 0 9 .4 .4 .4 .4 .4 .4 .3 .3 .3\n"
+                       "void mixfunc l 4 m void .3 . 0 0\nvoid mixfunc k 4 void g .3 . 0 0\n"
+                       "f sphere by_function 0 0 4 0 0 9 1\nb sphere general 0 0 4 0 0 -9 1\n"
+                       "c sphere coated 0 0 4 9 9 0 1\nl sphere lace 0 0 4 -9 9 0 1\nk sphere sieve 0 0 4 9 -9 0 1\n"
                        "g polygon pane 0 0 12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n"
                        "g polygon other 0 0 12 -1 -1 .5 1 -1 .5 1 1 .5 -1 1 .5\n"
                        "d sphere ball 0 0 4 9 0 0 1\nd sphere whole 0 0 4 -9 0 0 1\ni sphere half 0 0 4 -9 0 0 .5\n"
                        "t polygon sheet 0 0 12 -1 8 0 1 8 0 1 10 0 -1 10 0\nm sphere milk 0 0 4 0 -9 0 1\n";
-    const vec3 targets[] = {{0, 0, 0}, {9, 0, 0}, {-9, 0, 0}, {0, 9, 0}, {0, -9, 0}};
+    const vec3 targets[] = {{0, 0, 0}, {9, 0, 0},  {-9, 0, 0}, {0, 9, 0},  {0, -9, 0},
+                            {0, 0, 9}, {0, 0, -9}, {9, 9, 0},  {-9, 9, 0}, {9, -9, 0}};
     graze_scene *scene = load(text);
     for (int strategy = 0; strategy < 3; strategy++)
-        for (int i = 0; i < 40; i++) {
-            vec3 target = targets[i % 5], away = {cos(i * 0.7), sin(i * 0.7), 0.1 + 0.1 * (i % 9)};
+        for (int i = 0; i < 80; i++) {
+            vec3 target = targets[i % 10], away = {cos(i * 0.7), sin(i * 0.7), 0.1 + 0.1 * (i % 9)};
             target.x += 0.3 * cos(i);
             graze_ray ray = {.origin = vec3_add_scaled(target, 4, away), .direction = vec3_negate(away)};
             graze_trace_settings s = graze_trace_defaults();

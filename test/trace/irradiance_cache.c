@@ -62,7 +62,8 @@ static irradiance_record come_to(const view *v, size_t pixel, uint32_t number) {
     context.record = &record;
     path_hit first = look((void *)v, pixel);
     sampler points = sampler_start(sampler_key(99, pixel, 0), number);
-    (void)path_radiance(&context, &first, &points);
+    path_sample unused;
+    path_radiance(&context, &first, &points, &unused);
     return record;
 }
 
@@ -106,7 +107,8 @@ static double mean_brightness(const view *v, const irradiance_cache *cache, int 
         double sum = 0;
         for (int i = 0; i < samples; i++) {
             sampler points = sampler_start(sampler_key(cache ? 5 : 6, pixel * 1000 + (size_t)i, 0), 0);
-            path_sample sample = path_radiance(&context, &first, &points);
+            path_sample sample;
+            path_radiance(&context, &first, &points, &sample);
             double found = sample.radiance.g;
             for (int k = 0; k < sample.control_count; k++)
                 found += sample.controls[k].difference.g;

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "base/vector.h"
+#include "graze/material.h"
 #include "graze/trace.h"
 #include "support/scene_text.h"
 
@@ -62,6 +63,19 @@ static const char *const materials[] = {
     TEXTURE "t plastic a 0 0 5 .8 .2 .2 .1 .1 void metal b 0 0 5 .2 .3 .7 .8 0 void mixfunc m 4 a b .4 . 0 0",
     "void plasfunc m 2 max . 0 4 .5 .4 .3 .3",
     TEXTURE "t WGMDfunc m 13 void .4 .3 .2 void 0 0 0 void 1 Px 0 . 0 9 .5 .3 .2 0 0 0 0 0 0",
+    /* And of those that transmit: */
+    "void transfunc m 2 max . 0 6 .7 .6 .5 .2 .6 .7",
+    "void BRTDfunc m 10 0 0 0 0 0 0 max min 0 . 0 9 .3 .2 .1 0 0 0 .2 .3 .4",
+    TEXTURE "t BRTDfunc m 10 .3 .2 .1+.1*CrP .5 .4 Px*Px max max 0 . 0 9 .1 .1 .1 0 0 0 .1 .1 .1",
+    "void WGMDfunc m 13 void .2 .3 .2 void .4 .3 .2 void 1 Px 0 . 0 9 .1 .2 .1 0 0 0 .2 .1 .1",
+    TEXTURE "void WGMDfunc m 13 void .1 0 0 t .4 .3 .2 inherit 1 Px 0 . 0 9 .1 .2 .1 0 0 0 .2 .1 .1",
+    "void WGMDfunc m 13 void .2 .3 .2 void .5 0 0 void 1 Px 0 . 0 9 .1 .2 .1 0 0 0 .2 .1 .1",
+    TEXTURE "t glass m 0 0 3 .9 .8 .7",
+    TEXTURE "t trans m 0 0 7 .9 .8 .7 .05 .3 .6 .7",
+    "void plastic a 0 0 5 .8 .2 .2 .1 .1 void mixfunc m 4 a void .4 . 0 0",
+    "void trans a 0 0 7 .9 .8 .7 .05 .3 .6 .7 void mixfunc m 4 void a .4 . 0 0",
+    "void transfunc a 2 max . 0 6 .7 .6 .5 .2 .6 .7 void mixfunc b 4 a void .4 . 0 0 void glass c 0 0 3 .9 .8 .7 "
+    "void mixfunc m 4 b c .3 . 0 0",
 };
 
 static void strategies_agree(void **state) {
@@ -88,6 +102,8 @@ static void mixtures_are_means(void **state) {
         {"plastic", "metal", "0 0 5 .8 .2 .2 0 0", "0 0 5 .1 .5 .2 .7 .3"},
         {"plastic", "metal", "0 0 5 .8 .2 .2 .1 .1", "0 0 5 .1 .5 .2 .7 .3"},
         {"plastic", "metal", "0 0 5 .8 .2 .2 .1 0", "0 0 5 .1 .5 .2 .7 .3"},
+        {"plastic", "glass", "0 0 5 .8 .2 .2 .1 .1", "0 0 3 .9 .8 .7"},
+        {"transfunc", "plastic", "2 max . 0 6 .7 .6 .5 .2 .6 .7", "0 0 5 .8 .2 .2 0 0"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         for (int bounces = 0; bounces <= 1; bounces++) {
@@ -102,6 +118,83 @@ static void mixtures_are_means(void **state) {
             rgb error = rgb_add_scaled(rgb_scale(0.3, f.error), 0.7, b.error);
             assert_near(both, answer_of(both, GRAZE_STRATEGY_MIS, bounces, 0.3), mean, error);
         }
+}
+
+/* Void in a mixture is as clear as glass that does not refract: before a surface that reflects, one that transmits
+ * straight on or diffusely, and one whose rough transmission leaves it to chance. */
+static void void_is_clear(void **state) {
+    (void)state;
+    const char *const others[] = {
+        "plastic a 0 0 5 .8 .2 .2 .1 .1",
+        "metal a 0 0 5 .8 .2 .2 .7 0",
+        "glass a 0 0 3 .9 .8 .7",
+        "trans a 0 0 7 .9 .8 .7 .05 .3 .6 .7",
+        "transfunc a 2 max . 0 6 .7 .6 .5 .2 .6 .7",
+        "BRTDfunc a 10 .1 .2 .3 .5 .4 .3 max max max . 0 9 .1 .1 .1 0 0 0 .1 .1 .1",
+    };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        for (int bounces = 0; bounces <= 1; bounces++) {
+            char clear[400], nothing[400];
+            const char *order = i % 2 ? "m 4 %s a .4" : "m 4 a %s .6";
+            char mixed[2][40];
+            snprintf(mixed[0], sizeof mixed[0], order, "b");
+            snprintf(mixed[1], sizeof mixed[1], order, "void");
+            snprintf(clear, sizeof clear, "void %s void glass b 0 0 4 1 1 1 1 void mixfunc %s . 0 0", others[i],
+                     mixed[0]);
+            snprintf(nothing, sizeof nothing, "void %s void mixfunc %s . 0 0", others[i], mixed[1]);
+            answer c = answer_of(clear, GRAZE_STRATEGY_MIS, bounces, 0.3);
+            assert_near(nothing, answer_of(nothing, GRAZE_STRATEGY_MIS, bounces, 0.3), c.value, c.error);
+        }
+}
+
+/* A pattern alone, in a mixture, is as clear. */
+static void a_pattern_without_a_material_is_void(void **state) {
+    (void)state;
+    const char *const plain = "void plastic a 0 0 5 .8 .2 .2 .1 .1 void mixfunc m 4 a void .4 . 0 0";
+    answer nothing = answer_of(plain, GRAZE_STRATEGY_MIS, 1, 0.3);
+    answer pattern = answer_of("void brightfunc p 2 .3 . 0 0 void plastic a 0 0 5 .8 .2 .2 .1 .1 "
+                               "void mixfunc m 4 a p .4 . 0 0",
+                               GRAZE_STRATEGY_MIS, 1, 0.3);
+    assert_memory_equal(&nothing, &pattern, sizeof nothing);
+}
+
+/* What is seen through a textured pane is seen in another direction, and what lights it is not: the floor behind a pane
+ * whose texture is the same everywhere is that at another place, lit by the same. */
+static void textures_bend_what_is_seen(void **state) {
+    (void)state;
+    static const struct {
+        const char *material;
+        double bent; /* by so much of the perturbation */
+    } panes[] = {
+        {"t glass p 0 0 4 1 1 1 1.25", 0.5},
+        {"t trans p 0 0 7 1 1 1 0 0 1 1", 1},
+        {"t BRTDfunc p 10 0 0 0 1 1 1 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", 1},
+    };
+    for (size_t i = 0; i < sizeof panes / sizeof *panes; i++) {
+        char text[600];
+        snprintf(
+            text, sizeof text,
+            "void brightfunc b 2 noneg(Px) . 0 0 b glow g 0 0 4 1 1 1 0 g polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 "
+            "9 0 void texfunc t 4 -.2 0 0 . 0 0 %s p polygon pane 0 0 12 -9 -9 4 9 -9 4 9 9 4 -9 9 4",
+            panes[i].material);
+        graze_scene *scene = scene_from_text(text);
+        if (!scene)
+            fail_msg("%s: %s", panes[i].material, messages);
+        graze_trace_settings settings = graze_trace_defaults();
+        settings.samples = 4096;
+        const graze_ray ray = {.origin = {1, 0, 5}, .direction = {0, 0, -1}};
+        graze_answer found;
+        graze_trace(scene, &settings, &ray, 7, &found, NULL);
+        graze_scene_destroy(scene);
+        /* Glass lets through what it does at the angle that its normal leans to; whether it mirrors instead is chance.
+         */
+        const graze_material glass = {.kind = GRAZE_GLASS, .color = {1, 1, 1}, .refraction = 1.25};
+        double left = i == 0 ? graze_material_straight_through(&glass, 1 / sqrt(1.04)).g : 1;
+        double seen = left * (1 + 4 * 0.2 * panes[i].bent);
+        assert_true(found.standard_error.g < 0.01);
+        if (!(fabs(found.value.g - seen) <= 4.5 * found.standard_error.g + 1e-9))
+            fail_msg("%s: sees %.9g, not %.9g", panes[i].material, found.value.g, seen);
+    }
 }
 
 /* A reflectance function of which no part counts is a diffuse surface. */
@@ -136,6 +229,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strategies_agree),
         cmocka_unit_test(mixtures_are_means),
+        cmocka_unit_test(void_is_clear),
+        cmocka_unit_test(a_pattern_without_a_material_is_void),
+        cmocka_unit_test(textures_bend_what_is_seen),
         cmocka_unit_test(a_function_without_weight_is_diffuse),
         cmocka_unit_test(a_pattern_of_1_changes_nothing),
         cmocka_unit_test(mixtures_without_a_share_are_black),

@@ -15,7 +15,9 @@ enum { SCENES = 300, PATHS = 16 };
 static path_sample take(path_context context, path_memory *memory, const path_hit *first, uint32_t index) {
     sampler points = sampler_start(sampler_key(1, 2, 3), index);
     context.memory = memory;
-    return path_radiance(&context, first, &points);
+    path_sample sample;
+    path_radiance(&context, first, &points, &sample);
+    return sample;
 }
 
 static bool same_rgb(rgb a, rgb b) {

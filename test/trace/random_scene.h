@@ -41,8 +41,9 @@ typedef struct random_scene {
     graze_ray rays[RANDOM_RAYS];
     placement placement;
     dice dice;
-    bool open;  /* a floor and lights around, or a closed room */
-    bool clear; /* light goes through some of its surfaces */
+    bool open;      /* a floor and lights around, or a closed room */
+    bool clear;     /* light goes through some of its surfaces */
+    bool functions; /* some of its materials are functions, or mixtures with void */
     int shape_count;
     vec3 targets[64]; /* places that rays aim at */
     int target_count;
@@ -239,7 +240,52 @@ static inline void add_clear_material(random_scene *s, int number) {
     print_scene(s, "\n");
 }
 
+static inline void print_color(random_scene *s, double most) {
+    for (int i = 0; i < 3; i++)
+        print_scene(s, " %.17g", roll_between(&s->dice, 0, most));
+}
+
+/* Small lights are only compared where no mirror or pane shows them to those that do not sample them. */
+static inline void add_function_material(random_scene *s, int number) {
+    bool clear = s->kind != RANDOM_SMALL_LIGHT && roll(&s->dice) < 0.5;
+    switch (roll_below(&s->dice, 4)) {
+    case 0:
+        print_scene(s, "void transfunc m%d 2 max . 0 6", number);
+        print_color(s, 0.85);
+        print_color(s, 0.9);
+        break;
+    case 1:
+        print_scene(s, "void BRTDfunc m%d 10", number);
+        print_color(s, clear ? 0.2 : 0);
+        print_color(s, clear ? 0.4 : 0);
+        print_scene(s, " max max min . 0 9");
+        print_color(s, 0.3);
+        print_color(s, 0.3);
+        print_color(s, 0.3);
+        break;
+    case 2:
+        print_scene(s, "void WGMDfunc m%d 13 void %.17g", number, roll_between(&s->dice, 0, 0.3));
+        print_scene(s, " %.17g %.17g", roll_roughness(s), roll_roughness(s));
+        print_scene(s, " void %.17g", roll_between(&s->dice, 0, 0.3));
+        print_scene(s, " %.17g %.17g void", clear ? 0 : roll_roughness(s), roll_roughness(s));
+        print_vector(s, place_vector(&s->placement, roll_direction(&s->dice)));
+        print_scene(s, " . 0 9");
+        print_color(s, 0.2);
+        print_color(s, 0.2);
+        print_color(s, 0.2);
+        break;
+    default:
+        print_scene(s, "void mixfunc m%d 4 m%d void %.17g . 0 0", number, number - 1, roll(&s->dice));
+        break;
+    }
+    print_scene(s, "\n");
+}
+
 static inline void add_material(random_scene *s, int number) {
+    if (number > 0 && s->functions && roll(&s->dice) < 0.7) {
+        add_function_material(s, number);
+        return;
+    }
     if (number > 0 && s->clear && roll(&s->dice) < 0.5) {
         add_clear_material(s, number);
         return;
@@ -406,6 +452,7 @@ static inline void random_scene_make(random_scene *s, uint64_t number, placement
     s->kind = (random_kind)(number % RANDOM_KINDS);
     roll_settings(s);
     s->clear = number % 7 < 2;
+    s->functions = number % 7 == 3;
     for (int i = 0; i < RANDOM_MATERIALS; i++)
         add_material(s, i);
     bool open = s->open = roll(&s->dice) < 0.4;

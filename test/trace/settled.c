@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "base/angle.h"
 #include "base/vector.h"
 #include "graze/material.h"
 #include "graze/trace.h"
@@ -52,6 +53,20 @@ static void assert_exact(const char *text, int bounces) {
     graze_scene_destroy(scene);
 }
 
+static void nothing_but_suns(void **state) {
+    (void)state;
+    graze_scene *scene =
+        load("void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 far source other 0 0 4 0 0 1 9\n");
+    graze_trace_settings s = graze_trace_defaults();
+    graze_answer answer;
+    s.quantity = GRAZE_IRRADIANCE;
+    graze_trace(scene, &s, &(graze_ray){.direction = {0, 0, 1}}, 1, &answer, NULL);
+    double truth = 9 * PI * (pow(sin(angle_radians(2.5)), 2) * sqrt(0.5) + pow(sin(angle_radians(4.5)), 2));
+    assert_int_equal(answer.samples, 1);
+    assert_true(fabs(answer.value.g - truth) < 1e-9 * truth && answer.standard_error.g < 2e-8 * truth);
+    graze_scene_destroy(scene);
+}
+
 static void nothing_but_a_lamp(void **state) {
     (void)state;
     assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR, 0);
@@ -60,6 +75,10 @@ static void nothing_but_a_lamp(void **state) {
     assert_exact(LAMP "void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 "
                       "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR,
                  1);
+    /* Suns that overlap, and one before the sky. */
+    assert_exact("void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 far source again 0 0 4 1 0 1 5 "
+                 "void glow g 0 0 4 1 1 1 0 g source sky 0 0 4 0 0 1 180 void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR,
+                 0);
     /* Other things below the horizon, and diffuse surfaces above it that no reflection may go to. */
     assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m sphere ball 0 0 4 0 0 -2 1 m " FLOOR, 1);
     assert_exact(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m sphere ball 0 0 4 -4 -4 1 1 m " FLOOR, 0);
@@ -188,8 +207,9 @@ static void panes_are_exact(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(panes_are_exact), cmocka_unit_test(nothing_but_a_lamp), cmocka_unit_test(something_black),
-        cmocka_unit_test(hidden_lamp),     cmocka_unit_test(not_settled),        cmocka_unit_test(as_without),
+        cmocka_unit_test(panes_are_exact), cmocka_unit_test(nothing_but_suns), cmocka_unit_test(nothing_but_a_lamp),
+        cmocka_unit_test(something_black), cmocka_unit_test(hidden_lamp),      cmocka_unit_test(not_settled),
+        cmocka_unit_test(as_without),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

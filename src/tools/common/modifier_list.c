@@ -54,7 +54,7 @@ static graze_status add_file(modifier_list *list, const char *name, const graze_
         status = add_words(list, &file, report);
     free(file.bytes);
     if (status == GRAZE_OK && list->count == before)
-        status = report_error(report, NULL, "%s: no modifier is named in it", name);
+        report_warning(report, NULL, "%s: no modifier is named in it", name);
     return status;
 }
 
@@ -68,10 +68,11 @@ static graze_status take(modifier_list *list, bool include, bool file, const cha
     if (count < 1)
         return report_error(report, NULL, "option '-%c%c' lacks an argument: the name of a %s", list->letter, letter,
                             file ? "file" : "modifier");
-    if (list->count > 0 && list->include != include)
+    if (list->given && list->include != include)
         return report_error(report, NULL,
                             "modifiers are either excluded (-%ce, -%cE) or included (-%ci, -%cI), not both",
                             list->letter, list->letter, list->letter, list->letter);
+    list->given = true;
     list->include = include;
     *used = 1;
     return file ? add_file(list, words[0], report) : add(list, words[0], report);
@@ -99,6 +100,8 @@ graze_status modifier_list_include_file(void *target, const char *suffix, int co
 
 void modifier_list_print(void *target, FILE *out) {
     const modifier_list *list = target;
+    if (list->given && list->count == 0)
+        fprintf(out, "-%c%c /dev/null", list->letter, list->include ? 'I' : 'E');
     for (size_t i = 0; i < list->count; i++) {
         fprintf(out, "%s-%c%c ", i ? " " : "", list->letter, list->include ? 'i' : 'e');
         options_print_word(out, list->names[i]);
@@ -109,7 +112,7 @@ bool modifier_list_keeps(const modifier_list *list, const char *modifier) {
     bool listed = false;
     for (size_t i = 0; i < list->count && modifier && !listed; i++)
         listed = strcmp(list->names[i], modifier) == 0;
-    return list->count == 0 || listed == list->include;
+    return listed == list->include;
 }
 
 void modifier_list_free(modifier_list *list) {

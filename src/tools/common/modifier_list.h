@@ -9,15 +9,17 @@
 
 /* Begins with its letter alone. */
 typedef struct modifier_list {
-    char letter;        /* of the four options: a or t */
-    bool include;       /* these alone; else: all but these */
-    const char **names; /* none: all modifiers */
+    char letter;  /* of the four options: a or t */
+    bool given;   /* any of them has been */
+    bool include; /* these alone; else: all but these */
+    const char **names;
     size_t count, capacity;
     arena *memory; /* of names from files */
 } modifier_list;
 
 /* For an option table: each is the `handle` of one option, with the list as its target. A file, looked for along
- * RAYPATH, holds names with white space between. Excluding some and including others is an error. */
+ * RAYPATH, holds names with white space between; one that is empty gets a warning. Excluding some and including others
+ * is an error. */
 graze_status modifier_list_exclude(void *target, const char *suffix, int count, const char *const *words, int *used,
                                    const graze_report *);
 graze_status modifier_list_include(void *target, const char *suffix, int count, const char *const *words, int *used,

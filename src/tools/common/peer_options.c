@@ -37,27 +37,3 @@ graze_status peer_take_wavelengths(void *target, const char *suffix, int count, 
             status = report_error(report, NULL, "option '-cw': '%s' is not a number", words[*used]);
     return status;
 }
-
-graze_status peer_take_definitions(void *target, const char *suffix, int count, const char *const *words, int *used,
-                                   const graze_report *report) {
-    (void)target, (void)words;
-    *used = 1;
-    return expect("-f", suffix, 1, count, "the name of a file", report);
-}
-
-graze_status peer_take_expression(void *target, const char *suffix, int count, const char *const *words, int *used,
-                                  const graze_report *report) {
-    graze_status status = expect("-e", suffix, 1, count, "an expression or the name of a file", report);
-    *used = 1;
-    if (status == GRAZE_OK && !strpbrk(words[0], "=:"))
-        *(const char **)target = words[0];
-    return status;
-}
-
-void peer_print_error_file(void *target, FILE *out) {
-    const char *file = *(const char *const *)target;
-    if (file) {
-        fputs("-e ", out);
-        options_print_word(out, file);
-    }
-}

@@ -44,7 +44,7 @@ render_options render_options_in_effect(const render_options *given) {
     o.ignored = plain.ignored;
     o.components = plain.components;
     o.all_components = plain.all_components;
-    o.error_file = plain.error_file;
+    o.definitions = plain.definitions; /* what they say is the scene's */
     if (o.ambient_divisions > 0)
         o.ambient_divisions = plain.ambient_divisions;
     if (o.ambient_accuracy > 0)
@@ -131,12 +131,15 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
          0, modifier_list_include, NULL},
         {"-aI", OPTION_CUSTOM, &o->ambient_modifiers, "FILE", "... of those in the file", 0, 0,
          modifier_list_include_file, NULL},
-        {"", OPTION_HEADING, NULL, NULL, "Colors and messages", 0, 0, NULL, NULL},
+        {"", OPTION_HEADING, NULL, NULL, "Colors, functions, messages", 0, 0, NULL, NULL},
         {"-p", OPTION_SUFFIX, &o->color, "RGB", "colors of values: RGB XYZ Y S M A, or c and 8 chromaticities", 0, 0,
          output_color_take, output_color_print},
         {"-w", OPTION_FLAG, &o->warnings, NULL, "warnings", 0, 0, NULL, NULL},
-        {"-e", OPTION_CUSTOM, &o->error_file, "FILE", "append messages to it; a definition (with = or :) is ignored", 0,
-         0, peer_take_expression, peer_print_error_file},
+        {"-e", OPTION_CUSTOM, &o->definitions, "WORD",
+         "definition (with = or :) for function files; else a file to append messages to", 0, 0,
+         definition_list_take_expression, definition_list_print},
+        {"-f", OPTION_CUSTOM, &o->definitions, "FILE", "definitions for all function files", 0, 0,
+         definition_list_take_file, NULL},
         {"", OPTION_HEADING, NULL, NULL, "Refused unless they change nothing", 0, 0, NULL, NULL},
         {"-me", OPTION_REAL3, o->mist_extinction, "R G B", "mist everywhere: 0 0 0, there is none", 0, INFINITY, NULL,
          NULL},
@@ -166,7 +169,6 @@ void render_options_table(render_options *o, option table[RENDER_OPTION_COUNT]) 
         {"-mg", OPTION_REAL, &o->ignored.mist_eccentricity, "G", "mist eccentricity", -1, 1, NULL, NULL},
         {"-ms", OPTION_REAL, &o->ignored.mist_distance, "D", "mist sampling distance", 0, INFINITY, NULL, NULL},
         {"-cw", OPTION_CUSTOM, NULL, "NM NM", "range of wavelengths", 0, 0, peer_take_wavelengths, NULL},
-        {"-f", OPTION_CUSTOM, NULL, "FILE", "definitions for function files", 0, 0, peer_take_definitions, NULL},
         {"-P", OPTION_CUSTOM, NULL, "FILE", "persistent server (also -PP): the scene is loaded anew", 0, 0,
          peer_take_persist, NULL},
         {"-ss", OPTION_REAL, &o->ignored.specular_sampling, "N", "specular sampling: the whole lobe always is", 0,
@@ -223,14 +225,18 @@ graze_scene_settings render_options_scene(const render_options *o) {
         .ambient_modifiers = o->ambient_modifiers.names,
         .ambient_modifier_count = o->ambient_modifiers.count,
         .ambient_modifiers_included = o->ambient_modifiers.include,
+        .definitions = o->definitions.definitions,
+        .definition_count = o->definitions.count,
     };
 }
 
 graze_status render_options_begin(const render_options *o, const tool_arguments *arguments,
                                   const graze_report *report) {
-    return o->error_file ? tool_redirect_messages(o->error_file, arguments, report) : GRAZE_OK;
+    const char *file = o->definitions.error_file;
+    return file ? tool_redirect_messages(file, arguments, report) : GRAZE_OK;
 }
 
 void render_options_free(render_options *o) {
     modifier_list_free(&o->ambient_modifiers);
+    definition_list_free(&o->definitions);
 }

@@ -6,6 +6,7 @@
 
 #include "base/options.h"
 #include "graze/trace.h"
+#include "tools/common/definition_list.h"
 #include "tools/common/modifier_list.h"
 #include "tools/common/output_color.h"
 #include "tools/common/tool.h"
@@ -30,7 +31,7 @@ typedef struct render_options {
     output_color_option color;
     model_options models;
     modifier_list ambient_modifiers;
-    const char *error_file;  /* null: standard error */
+    definition_list definitions;
     bool all_components;     /* -co */
     int components;          /* -cs */
     double ambient_accuracy; /* 0: without an irradiance cache, in pictures */

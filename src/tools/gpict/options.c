@@ -62,7 +62,28 @@ static graze_status take_output(void *target, const char *suffix, int count, con
     if (*suffix || count < 1)
         return report_error(report, NULL, "option '-o' needs the name of a file");
     *used = 1;
-    return add_output(target, words[0], report);
+    return add_output(&((gpict_options *)target)->pictures, words[0], report);
+}
+
+/* A picture that -ro names is printed there. */
+static void print_outputs(void *target, FILE *out) {
+    const gpict_options *o = target;
+    const char *before = "";
+    for (int i = 0; i < o->pictures.count; i++) {
+        if (o->recover_output && o->pictures.files[i] == o->recover)
+            continue;
+        fprintf(out, "%s-o ", before);
+        options_print_word(out, o->pictures.files[i]);
+        before = " ";
+    }
+}
+
+static void print_recover(void *target, FILE *out) {
+    const gpict_options *o = target;
+    if (!*o->recover)
+        return;
+    fputs(o->recover_output ? "-ro " : "-r ", out);
+    options_print_word(out, o->recover);
 }
 
 static graze_status take_recover(void *target, const char *suffix, int count, const char *const *words, int *used,
@@ -118,8 +139,8 @@ void gpict_options_table(gpict_options *o, option table[GPICT_TABLE_SIZE]) {
          NULL},
         {"-S", OPTION_INTEGER, &o->first_frame, "N",
          "a picture for each view on standard input, from frame N on; 0: one picture", 0, 1000000000, NULL, NULL},
-        {"-o", OPTION_CUSTOM, &o->pictures, "FILE", "write FILE.hdr, .exr or .png ... instead of standard output", 0, 0,
-         take_output, NULL},
+        {"-o", OPTION_CUSTOM, o, "FILE", "write FILE.hdr, .exr or .png ... instead of standard output", 0, 0,
+         take_output, print_outputs},
         {"-z", OPTION_TEXT, &o->depth, "FILE", "write distances, as native floats", 0, 0, NULL, NULL},
         {"--exposure", OPTION_REAL, &o->exposure, "E", "factor for 8-bit pictures; 0: by the picture", 0, INFINITY,
          NULL, NULL},
@@ -128,7 +149,7 @@ void gpict_options_table(gpict_options *o, option table[GPICT_TABLE_SIZE]) {
         {"--contours-per-decade", OPTION_INTEGER, &o->contours_per_decade, "N",
          "lines for a factor of ten in luminance", 1, 20, NULL, NULL},
         {"", OPTION_HEADING, NULL, NULL, "On the way", 0, 0, NULL, NULL},
-        {"-r", OPTION_CUSTOM, o, "FILE", "go on with a picture that was begun", 0, 0, take_recover, NULL},
+        {"-r", OPTION_CUSTOM, o, "FILE", "go on with a picture that was begun", 0, 0, take_recover, print_recover},
         {"-ro", OPTION_CUSTOM, o, "FILE", "the same, and -o FILE", 0, 0, take_recover_output, NULL},
         {"--checkpoint", OPTION_TEXT, &o->checkpoint, "FILE", "of what is done; else OUTPUT.checkpoint", 0, 0, NULL,
          NULL},

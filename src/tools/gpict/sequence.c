@@ -18,17 +18,26 @@ static graze_status check_names(const gpict_options *o, const graze_report *repo
 }
 
 /* One frame; the view becomes the previous one. */
-static graze_status render_view(job *j, int number, const rad_view *view, const place *where, rad_view *previous) {
+static graze_status render_view(job *j, int number, const rad_view *view, const rad_view *now, rad_view *previous) {
     shot *f = NULL;
-    rad_view now = *view;
-    graze_status status = rad_view_prepare(&now, where, j->report);
-    if (status != GRAZE_OK)
-        return status;
-    status = shot_prepare(&f, j, number, view, previous);
+    graze_status status = shot_prepare(&f, j, number, view, previous);
     if (f)
         status = shot_render(f, j);
     shot_destroy(f);
-    *previous = now;
+    *previous = *now;
+    return status;
+}
+
+/* What a line that was wrong has changed of the view is taken back, for the next lines to be right. */
+static graze_status take_view(const job *j, rad_view *view, rad_view *now, const char *line, bool *found,
+                              const place *where) {
+    const rad_view before = *view;
+    graze_status status = rad_view_take_line(view, line, found, where, j->report);
+    *now = *view;
+    if (status == GRAZE_OK && *found)
+        status = rad_view_prepare(now, where, j->report);
+    if (status != GRAZE_OK)
+        *view = before;
     return status;
 }
 
@@ -43,11 +52,12 @@ static graze_status render_all(job *j, rad_view *view, rad_view *previous, char 
     place where = {.file = "standard input"};
     while (!j->signal && worst < GRAZE_SYSTEM_ERROR && getline(line, size, stdin) > 0) {
         bool found;
+        rad_view now;
         where.line++;
         cut_end(*line);
-        graze_status status = rad_view_take_line(view, *line, &found, &where, j->report);
-        if (found)
-            status = render_view(j, number, view, &where, previous);
+        graze_status status = take_view(j, view, &now, *line, &found, &where);
+        if (status == GRAZE_OK && found)
+            status = render_view(j, number, view, &now, previous);
         number += found || status != GRAZE_OK;
         worst = status > worst ? status : worst;
     }

@@ -21,6 +21,7 @@ static ray_values values_of_tree_ray(const graze_tree_ray *ray) {
         .origin = ray->origin,
         .direction = ray->direction,
         .hit = &ray->hit,
+        .seen_distance = ray->hit.distance,
         .value = ray->radiance,
         .coefficient = ray->coefficient,
         .contribution = ray->contribution,
@@ -73,10 +74,30 @@ static bool trace_value(const answering *a, const graze_ray *ray, uint64_t numbe
     return answer.converged;
 }
 
-bool answer_ray(const answering *a, const graze_ray *ray, uint64_t number, record_buffer *out) {
+static bool trace(const answering *a, const graze_ray *ray, uint64_t number, ray_values *v, graze_hit *hit) {
+    return a->output.needs_mirror ? trace_parts(a, ray, number, v, hit) : trace_value(a, ray, number, v, hit);
+}
+
+/* A surface that is hidden from behind is passed by light, and yet it is what the ray has met first, as in rtrace. */
+static void find_hidden(const answering *a, const graze_ray *ray, graze_hit *hit) {
+    graze_trace_settings settings = a->settings;
+    graze_hit first;
+    settings.back_faces_visible = 1;
+    graze_cast(a->scene, &settings, ray, &first);
+    if (first.distance >= hit->distance)
+        return;
+    first.shading_normal = first.normal;
+    *hit = first;
+}
+
+bool answer_ray(const answering *a, const graze_ray *given, uint64_t number, record_buffer *out) {
     bool converged = true;
+    graze_ray before = *given, *ray = &before;
+    /* What lies where the ray ends is not met, as in rtrace, whatever its distance is rounded to. */
+    before.limit *= 1 - 0x1p-50;
     graze_hit hit = {.distance = GRAZE_FAR};
     ray_values v = {.hit = &hit, .coefficient = {1, 1, 1}, .mirrored_distance = GRAZE_FAR, .weight = 1};
+    v.seen_distance = hit.distance;
     if (!(vec3_max_abs(ray->direction) > 0)) {
         ray_output_append(&a->output, out, &v);
         return true;
@@ -92,8 +113,12 @@ bool answer_ray(const answering *a, const graze_ray *ray, uint64_t number, recor
     if (!a->output.needs_value)
         graze_cast(a->scene, &a->settings, ray, &hit);
     else
-        converged =
-            a->output.needs_mirror ? trace_parts(a, ray, number, &v, &hit) : trace_value(a, ray, number, &v, &hit);
+        converged = trace(a, ray, number, &v, a->output.needs_hit ? &hit : NULL);
+    v.seen_distance = hit.distance;
+    if (!hit.surface && given->limit > 0)
+        hit.point = vec3_add_scaled(given->origin, given->limit, given->direction);
+    if (!a->settings.back_faces_visible && a->output.needs_hit && a->settings.quantity != GRAZE_IRRADIANCE)
+        find_hidden(a, ray, &hit);
     v.contribution = v.value;
     ray_output_append(&a->output, out, &v);
     return converged;

@@ -16,7 +16,7 @@ typedef enum content {
 } content;
 
 /* What a letter depends on. */
-enum { CAST = 0, LIGHT = 1, MIRROR = 2, ERROR = 4, TREE = 8, SHADING = 16 };
+enum { NOTHING = 0, LIGHT = 1, MIRROR = 2, ERROR = 4, TREE = 8, SHADING = 16, CAST = 32 };
 
 /* Every letter rtrace knows, and e. */
 static const struct letter {
@@ -24,18 +24,18 @@ static const struct letter {
     content content;
     int needs;
 } letters_known[] = {
-    {'o', POINT, CAST},
-    {'d', POINT, CAST},
+    {'o', POINT, NOTHING},
+    {'d', POINT, NOTHING},
     {'v', COLOR, LIGHT},
     {'e', COLOR, LIGHT | ERROR},
     {'V', COLOR, LIGHT | TREE},
-    {'w', NUMBER, CAST},
+    {'w', NUMBER, NOTHING},
     {'W', COLOR, SHADING | TREE},
-    {'l', NUMBER, LIGHT | MIRROR},
+    {'l', NUMBER, CAST | LIGHT | MIRROR},
     {'L', NUMBER, CAST},
     {'c', PAIR, CAST},
     {'p', POINT, CAST},
-    {'n', POINT, SHADING},
+    {'n', POINT, CAST | SHADING},
     {'N', POINT, CAST},
     {'s', NAME, CAST},
     {'m', NAME, CAST},
@@ -43,8 +43,8 @@ static const struct letter {
     {'r', COLOR, LIGHT | MIRROR},
     {'R', NUMBER, SHADING | MIRROR},
     {'x', COLOR, LIGHT | MIRROR},
-    {'X', NUMBER, SHADING},
-    {'~', LITERAL, CAST},
+    {'X', NUMBER, CAST | SHADING},
+    {'~', LITERAL, NOTHING},
 };
 
 static const struct letter *find_letter(char c) {
@@ -79,7 +79,8 @@ static graze_status take_letter(ray_output *o, char c, const graze_report *repor
     o->needs_value = o->needs_value || known->needs & LIGHT;
     o->needs_mirror = o->needs_mirror || known->needs & MIRROR;
     o->needs_error = o->needs_error || known->needs & ERROR;
-    o->casts_only = o->casts_only && known->needs == CAST;
+    o->needs_hit = o->needs_hit || known->needs & CAST;
+    o->casts_only = o->casts_only && !(known->needs & ~CAST);
     if (of_tree)
         return GRAZE_OK;
     o->answer_count++;
@@ -159,7 +160,7 @@ static void append_name(record_buffer *out, const char *name) {
 static double effective_distance(const ray_values *v) {
     double mirrored = rgb_brightness(v->mirrored);
     bool mirrors = mirrored > 0 && mirrored > 0.5 * rgb_brightness(v->value);
-    return mirrors ? v->mirrored_distance : v->hit->distance;
+    return mirrors ? v->mirrored_distance : v->seen_distance;
 }
 
 static void append_letter(const ray_output *o, char letter, record_buffer *out, const ray_values *v) {
@@ -197,8 +198,10 @@ static void append_letter(const ray_output *o, char letter, record_buffer *out, 
     case 'R':
         append_number(o, out, v->mirrored_distance);
         break;
-    case 'L':
     case 'X':
+        append_number(o, out, v->seen_distance);
+        break;
+    case 'L':
         append_number(o, out, v->hit->distance);
         break;
     case 'c':

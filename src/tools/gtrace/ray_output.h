@@ -20,6 +20,7 @@ typedef struct ray_output {
     bool needs_value;     /* some letter asks for light: else rays are only cast */
     bool needs_mirror;    /* some letter tells what a mirror reflects from the rest */
     bool needs_error;     /* e */
+    bool needs_hit;       /* some letter tells what is met, or where */
     bool casts_only;      /* no letter depends on light, so that irradiance makes no sense */
     int numbers;          /* in a record, each name counted as one: the header's NCOMP */
     char tree_only_value; /* V or W without t or T, for a warning; 0: none */
@@ -32,7 +33,8 @@ graze_status ray_output_parse(ray_output *, const char *letters, char format, co
 /* All that letters may ask for. */
 typedef struct ray_values {
     graze_vec3 origin, direction;
-    const graze_hit *hit;
+    const graze_hit *hit; /* also of a surface that is hidden from behind (-bv-) */
+    double seen_distance; /* to what is seen: beyond such surfaces */
     graze_rgb value, standard_error, coefficient, contribution, mirrored, unmirrored;
     double mirrored_distance; /* GRAZE_FAR: no mirror */
     double weight;

@@ -1,0 +1,236 @@
+/* Materials of functions: what each argument means, values by hand, what is refused. */
+#include "material/reflection.h"
+
+#include "material/support.h"
+#include "material/wgmd.h"
+#include "support/written_file.h"
+
+/* A scene of one material, and what it is compiled to. */
+typedef struct setting {
+    rad_scene *scene;
+    material_modifiers *modifiers;
+    const rad_primitive *primitive;
+    const material_reflection *reflection;
+    const material_wgmd *wgmd;
+    graze_status status;
+} setting;
+
+static setting setting_of(const char *text) {
+    setting s = {.scene = NULL};
+    written_file file = written_file_make(text, strlen(text));
+    const char *names[] = {file.name};
+    size_t count;
+    messages[0] = 0;
+    s.status = rad_scene_read(&s.scene, names, 1, &remembering);
+    unlink(file.name);
+    if (s.status)
+        return s;
+    const rad_primitive *primitives = rad_scene_primitives(s.scene, &count);
+    s.primitive = &primitives[count - 1];
+    s.modifiers = material_modifiers_create(primitives, count, &remembering);
+    assert_non_null(s.modifiers);
+    if (s.primitive->type == RAD_WGMDFUNC)
+        s.status = material_wgmd_compile(&s.wgmd, s.modifiers, s.primitive);
+    else
+        s.status = material_reflection_compile(&s.reflection, material_modifiers_library(s.modifiers), s.primitive);
+    return s;
+}
+
+static void setting_end(setting *s) {
+    material_modifiers_destroy(s->modifiers);
+    rad_scene_destroy(s->scene);
+}
+
+static setting compiled(const char *text) {
+    setting s = setting_of(text);
+    if (s.status)
+        fail_msg("%s: %s", text, messages);
+    return s;
+}
+
+static void assert_side(material_reflection_side side, rgb diffuse, rgb ambient, rgb function) {
+    const rgb found[] = {side.diffuse, side.ambient, side.function}, expected[] = {diffuse, ambient, function};
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs(channel(found[i], c) - channel(expected[i], c)) < 1e-15);
+}
+
+static const rgb white = {1, 1, 1}, black = {0, 0, 0}, half = {0.5, 0.5, 0.5};
+
+/* Of colour c, specularity s, transmission t and transmitted specularity u, t (1 - s) goes through, the part u of it by
+ * the function, which on the viewer's side has the part s and no colour. All light but that of lights is divided
+ * between both sides alone. */
+static void what_transfunc_divides(void **state) {
+    (void)state;
+    const rgb c = {0.8, 0.4, 0.2};
+    const double t = 0.75 * 0.6, u = t * 0.5;
+    setting s = compiled("void transfunc m 2 max . 0 6 .8 .4 .2 .25 .6 .5");
+    material_reflection_side above, below;
+    for (int behind = 0; behind < 2; behind++) {
+        material_reflection_sides(s.reflection, white, behind, &above, &below);
+        assert_side(above, rgb_scale(1 - t - 0.25, c), rgb_scale(1 - t, c), rgb_gray(0.25));
+        assert_side(below, rgb_scale(t - u, c), rgb_scale(t, c), rgb_scale(u, c));
+    }
+    material_reflection_sides(s.reflection, half, false, &above, &below);
+    assert_side(above, rgb_scale(0.5 * (1 - t - 0.25), c), rgb_scale(0.5 * (1 - t), c), rgb_gray(0.25));
+    assert_side(below, rgb_scale(0.5 * (t - u), c), rgb_scale(0.5 * t, c), rgb_scale(0.5 * u, c));
+    assert_false(s.reflection->mirrors || s.reflection->passes || s.reflection->keeps_normal);
+    setting_end(&s);
+    s = compiled("void metfunc m 2 max . 0 4 .8 .4 .2 .25");
+    material_reflection_sides(s.reflection, half, false, &above, &below);
+    assert_side(above, rgb_scale(0.375, c), rgb_scale(0.5, c), rgb_scale(0.125, c));
+    assert_side(below, black, black, black);
+    setting_end(&s);
+}
+
+/* The nine colours of BRTDfunc, which patterns are on; on the functions they are not. */
+static void what_brtdfunc_divides(void **state) {
+    (void)state;
+    setting s = compiled("void BRTDfunc m 10 0 0 0 0 0 0 max 0 max . 0 9 .1 .2 .3 .4 .3 .2 .01 .02 .03");
+    material_reflection_side above, below;
+    const rgb front = {0.1, 0.2, 0.3}, back = {0.4, 0.3, 0.2}, beyond = {0.01, 0.02, 0.03};
+    material_reflection_sides(s.reflection, white, false, &above, &below);
+    assert_side(above, front, front, white);
+    assert_side(below, beyond, beyond, white);
+    material_reflection_sides(s.reflection, half, true, &above, &below);
+    assert_side(above, rgb_scale(0.5, back), rgb_scale(0.5, back), white);
+    assert_side(below, rgb_scale(0.5, beyond), rgb_scale(0.5, beyond), white);
+    assert_false(s.reflection->mirrors || s.reflection->passes);
+    assert_true(s.reflection->keeps_normal && s.reflection->by_function);
+    setting_end(&s);
+    s = compiled("void BRTDfunc m 10 0 0 .1 0 Px 0 0 0 0 . 0 9 .1 .2 .3 .4 .3 .2 .01 .02 .03");
+    material_reflection_sides(s.reflection, white, false, &above, &below);
+    assert_side(above, front, front, black);
+    assert_side(below, beyond, beyond, black);
+    assert_true(s.reflection->mirrors && s.reflection->passes && !s.reflection->by_function);
+    setting_end(&s);
+}
+
+static material_reflection_point point_from(vec3 direction, vec3 own_normal) {
+    material_reflection_point at = {.color = {0.5, 0.25, 1}};
+    at.ray = (material_ray){.point = {3, 4, 5}, .direction = direction, .normal = own_normal, .distance = 1};
+    at.normal = vec3_make(0, 0, direction.z < 0 ? 1 : -1);
+    return at;
+}
+
+static void assert_color(rgb a, double r, double g, double b) {
+    if (!(fabs(a.r - r) < 1e-12 && fabs(a.g - g) < 1e-12 && fabs(a.b - b) < 1e-12))
+        fail_msg("%.17g %.17g %.17g is not %g %g %g", a.r, a.g, a.b, r, g, b);
+}
+
+/* What functions see: the direction to the light, on either side; the surface's own normal, with RdotP and NzP on the
+ * viewer's side; the pattern. What is below 0, or no number, is 0. */
+static void what_functions_see(void **state) {
+    (void)state;
+    setting s = compiled("void BRTDfunc m 10 RdotP Nz NzP Rdot+1 CgP Px max min 0 . 0 9 0 0 0 0 0 0 0 0 0");
+    const vec3 up = {0, 0, 1}, light = {0.6, 0, 0.8}, low = {0.6, 0, -0.8};
+    material_reflection_point front = point_from(vec3_make(0, 0.6, -0.8), up);
+    material_reflection_point back = point_from(vec3_make(0, 0.6, 0.8), up);
+    assert_color(material_reflection_mirrored(s.reflection, &front), 0.8, 1, 1);
+    assert_color(material_reflection_through(s.reflection, &front), 1.8, 0.25, 3);
+    assert_color(material_reflection_mirrored(s.reflection, &back), 0.8, 1, 0);
+    assert_color(material_reflection_through(s.reflection, &back), 0.2, 0.25, 3);
+    assert_color(material_reflection_value(s.reflection, &front, light), 0.8, 0, 0);
+    assert_color(material_reflection_value(s.reflection, &front, low), 0.6, 0, 0);
+    setting_end(&s);
+    s = compiled("void BRTDfunc m 10 sqrt(-Px) 1 1 -Px 1 1 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0");
+    assert_color(material_reflection_mirrored(s.reflection, &front), 0, 0, 0);
+    assert_non_null(strstr(messages, "BRTDfunc m: compute error"));
+    assert_color(material_reflection_through(s.reflection, &front), 0, 1, 1);
+    setting_end(&s);
+}
+
+static void assert_refused(const char *text, const char *message) {
+    setting s = setting_of(text);
+    assert_int_not_equal(s.status, GRAZE_OK);
+    if (!strstr(messages, message))
+        fail_msg("%s: %s", text, messages);
+    setting_end(&s);
+}
+
+static void arguments_are_checked(void **state) {
+    (void)state;
+    assert_refused("void transfunc m 2 max . 0 5 .8 .4 .2 .25 .6", ":1:1: transfunc m: ");
+    assert_refused("void transfunc m 2 max . 0 6 .8 .4 .2 .25 -.6 .5",
+                   ":1:1: transfunc m: real argument 5 is negative");
+    assert_refused("void transfunc m 2 max . 0 6 .8 .4 .2 .25 1.6 .5", "the transmission and the transmitted");
+    assert_refused("void transfunc m 2 max . 0 6 .8 .4 .2 .25 .6 1.5", "the transmission and the transmitted");
+    assert_refused("void transfunc m 2 max . 0 6 .8 .4 .2 1.25 .6 .5", "the specularity must be in 0 .. 1");
+    assert_refused("void transfunc m 2 nothing . 0 6 .8 .4 .2 .25 .6 .5", "there is no function nothing");
+    assert_refused("void transdata m 4 max none.dat . Px 0 6 .8 .4 .2 .25 .6 .5", "transdata m: ");
+    assert_refused("void BRTDfunc m 9 0 0 0 0 0 0 0 0 0 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
+    assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 8 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
+    assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 -1", "real argument 9 is negative");
+    assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0. . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
+    assert_refused("void BRTDfunc m 10 0 0 0 q 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 -1 0",
+                   "real argument 8 is negative");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 lost .1 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 0",
+                   "there is no modifier 'lost' before it");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 lost 1 0 0 . 0 9 0 0 0 0 0 0 0 0 1",
+                   "there is no modifier 'lost' before it");
+}
+
+static void what_is_unphysical_is_told(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .5 .5 .5 .1 .1 .1 .6 .1 .1",
+        "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .1 .1 .1 .5 .5 .5 .1 .1 .6",
+        "void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 .5 .5 .5 .1 .1 .1 .6 .1 .1",
+        "void transfunc m 2 max . 0 6 1.8 .4 .2 .25 .6 .5",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        setting s = compiled(texts[i]);
+        if (!strstr(messages, ":1:1: ") || !strstr(messages, " m: unphysical"))
+            fail_msg("%s: '%s'", texts[i], messages);
+        setting_end(&s);
+    }
+}
+
+/* The parts of a WGMDfunc with roughnesses are two lobes, with those that are 0 a mirror and a clear pane; a mirror
+ * takes the same from all that is not mirrored. A part that is 0 in the scene is none, its modifier is not looked for.
+ */
+static void what_wgmdfunc_transmits(void **state) {
+    (void)state;
+    setting s = compiled("void WGMDfunc m 13 lost 0 0 0 void .4 .2 .1 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
+    const vec3 normal = {0, 0, 1}, direction = {0.6, 0, -0.8};
+    material_wgmd_point at = {.ray = {.point = {0, 0, 0}, .direction = direction, .normal = normal},
+                              .model = GRAZE_BRDF_GMD,
+                              .straight_on = direction};
+    for (int i = 0; i < WGMD_PARTS; i++) {
+        at.normals[i] = normal;
+        at.colors[i] = rgb_gray(1);
+    }
+    graze_surface parts[WGMD_PARTS];
+    assert_false(s.wgmd->has[WGMD_SPECULAR] || s.wgmd->may_mirror || s.wgmd->may_be_clear);
+    material_wgmd_prepare(s.wgmd, &at, parts);
+    graze_surface joined = parts[WGMD_DIFFUSE];
+    material_wgmd_join(&joined, &parts[WGMD_THROUGH]);
+    material_wgmd_join(&joined, &parts[WGMD_THROUGH_DIFFUSE]);
+    assert_color(joined.diffuse, 0.1, 0.1, 0.1);
+    assert_color(joined.transmitted_diffuse, 0.3, 0.2, 0.1);
+    assert_color(joined.transmitted_specular, 0.4, 0.4, 0.4);
+    assert_int_equal(joined.transmitted_lobe, GRAZE_LOBE_TRANSMITTED_GLOSSY);
+    assert_true(joined.transmitted_u == 0.2 && joined.transmitted_v == 0.1 && joined.transmits && !joined.fresnel);
+    assert_color(material_wgmd_through(s.wgmd, &at), 0, 0, 0);
+    setting_end(&s);
+    s = compiled("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
+    material_wgmd_prepare(s.wgmd, &at, parts);
+    const double fresnel = exp(-5.85 * 0.8) - exp(-5.85), left = 1 - fresnel;
+    assert_true(fabs(parts[WGMD_SPECULAR].specular.g - (0.1 + 0.9 * fresnel)) < 1e-6);
+    assert_int_equal(parts[WGMD_SPECULAR].specular_lobe, GRAZE_LOBE_MIRROR);
+    assert_true(fabs(parts[WGMD_THROUGH].transmitted_specular.g - 0.4 * left) < 1e-6);
+    assert_int_equal(parts[WGMD_THROUGH].transmitted_lobe, GRAZE_LOBE_TRANSMITTED);
+    assert_true(fabs(parts[WGMD_THROUGH_DIFFUSE].transmitted_diffuse.g - 0.2 * left) < 1e-6);
+    assert_true(fabs(material_wgmd_through(s.wgmd, &at).g - 0.4 * left) < 1e-6);
+    setting_end(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_transfunc_divides),     cmocka_unit_test(what_brtdfunc_divides),
+        cmocka_unit_test(what_functions_see),         cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(what_is_unphysical_is_told), cmocka_unit_test(what_wgmdfunc_transmits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
