@@ -123,8 +123,9 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  * samples differ tells how fast the error falls with their number, and that is taken to go on, at a rate between
  * 1/sqrt(samples), that of independent samples, and 1/samples. It is stated so much larger that 1.96 of it to each side
  * hold the truth in 95% of all answers. Of what is smooth errors fall faster, and are stated too large. Light that none
- * of the samples found, such as that which a small lamp throws on a diffuse wall by way of a mirror, is in neither the
- * value nor its error. */
+ * of the samples found, such as that which a small lamp throws on a diffuse wall by way of two mirrors, is in neither
+ * the value nor its error; of that by way of one, the error has what is to be expected in the mean over all directions.
+ */
 GRAZE_API void graze_trace(const graze_scene *scene, const graze_trace_settings *settings, const graze_ray *ray,
                            uint64_t stream, graze_answer *answer, graze_hit *hit);
 

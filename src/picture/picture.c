@@ -22,10 +22,14 @@
 #define LARGEST_ERROR 16.0
 #define ERROR_UNITS   4294967296.0
 
+/* Beside the replicates that estimates draw from. */
+#define CORNER_NUMBERS 2
+
 /* A pixel as estimate_sample sees it. */
 typedef struct pixel {
     const rendering *picture;
     int column, row;
+    uint64_t number; /* of its random numbers */
     path_memory *memory;
     bool cast; /* where all samples are of one ray: it has been */
     path_hit first;
@@ -57,38 +61,84 @@ static bool sample_camera(const picture_settings *s, sampler *points, camera_sam
     return is_spread(s);
 }
 
-/* What a sample's ray hits first. False: there is no such ray. */
-static bool cast_sample(pixel *p, const path_context *context, sampler *points, camera_sample *at,
-                        estimate_luck *luck) {
+static path_context context_of(const pixel *p) {
+    return (path_context){
+        .scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory, .cache = p->picture->cache};
+}
+
+/* What a camera's ray hits first. False: there is no such ray. */
+static bool cast_at(pixel *p, const path_context *context, const camera_sample *at) {
     graze_ray ray;
-    if (p->cast)
-        return true;
-    bool spread = sample_camera(&p->picture->settings, points, at);
-    *luck = spread ? ESTIMATE_PLACE : ESTIMATE_EXACT;
     if (!camera_ray(&p->picture->settings, p->column, p->row, at, &ray))
         return false;
     p->first = path_cast(context, ray.origin, ray.direction, ray.limit > 0 ? ray.limit : GEOMETRY_FAR, -1);
-    p->cast = !spread;
     return true;
+}
+
+/* One sample of what is seen there, where p->first is. */
+static void sample_at(const pixel *p, path_context *context, const camera_sample *at, sampler *points,
+                      path_sample *sample) {
+    path_indirect known;
+    if (p->shared && shared_light_at(p->picture->shared, p->shared, &p->first, at->x - camera_center.x,
+                                     at->y - camera_center.y, &known))
+        context->indirect = &known;
+    path_radiance(context, &p->first, points, sample);
 }
 
 static void sample_pixel(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     pixel *p = user;
-    path_context context = {
-        .scene = p->picture->scene, .settings = &p->picture->trace, .memory = p->memory, .cache = p->picture->cache};
+    path_context context = context_of(p);
     camera_sample at = camera_center;
-    path_indirect known;
     *luck = ESTIMATE_EXACT;
-    if (!cast_sample(p, &context, points, &at, luck)) {
-        *sample = (path_sample){.noisy = false};
-        return;
+    if (!p->cast) {
+        bool spread = sample_camera(&p->picture->settings, points, &at);
+        if (spread)
+            *luck = ESTIMATE_PLACE;
+        if (!cast_at(p, &context, &at)) {
+            *sample = (path_sample){.noisy = false};
+            return;
+        }
+        p->cast = !spread;
     }
-    if (p->shared && shared_light_at(p->picture->shared, p->shared, &p->first, at.x - camera_center.x,
-                                     at.y - camera_center.y, &known))
-        context.indirect = &known;
-    path_radiance(&context, &p->first, points, sample);
+    sample_at(p, &context, &at, points, sample);
     if (sample->noisy)
         *luck = sample->searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
+}
+
+/* What one sample finds in the pixel's corner. */
+static rgb look_at_corner(const pixel *p, int corner, path_memory *memory) {
+    pixel there = *p;
+    there.memory = memory;
+    double half = p->picture->settings.jitter / 2;
+    camera_sample at = camera_center;
+    at.x += corner & 1 ? half : -half;
+    at.y += corner & 2 ? half : -half;
+    path_context context = context_of(&there);
+    if (!cast_at(&there, &context, &at))
+        return rgb_gray(0);
+    sampler points = sampler_start(sampler_key(p->picture->trace.seed, p->number, CORNER_NUMBERS), (uint32_t)corner);
+    path_sample sample;
+    sample_at(&there, &context, &at, &points, &sample);
+    for (int k = 0; k < sample.control_count; k++)
+        sample.radiance = rgb_add(sample.radiance, sample.controls[k].difference);
+    return sample.radiance;
+}
+
+/* What lies on one side of a straight edge and meets the pixel has one of its corners at least: where these look alike,
+ * there is no such edge. Nobody has looked through all of a lens, or at all times, by that. */
+static bool has_edge(void *user, uint32_t samples, double allowed) {
+    const pixel *p = user;
+    if (p->picture->settings.aperture > 0 || p->picture->settings.shutter > 0)
+        return true;
+    path_memory memory;
+    path_memory_begin(&memory, false);
+    rgb least = look_at_corner(p, 0, &memory), most = least;
+    for (int corner = 1; corner < 4; corner++) {
+        rgb found = look_at_corner(p, corner, &memory);
+        least = (rgb){fmin(least.r, found.r), fmin(least.g, found.g), fmin(least.b, found.b)};
+        most = (rgb){fmax(most.r, found.r), fmax(most.g, found.g), fmax(most.b, found.b)};
+    }
+    return rgb_max(rgb_add_scaled(most, -1, least)) > samples * allowed;
 }
 
 /* Random numbers of pictures, and of surveys. */
@@ -102,11 +152,12 @@ static graze_answer estimate_pixel(const pixel *p, const graze_trace_settings *s
     graze_answer answer;
     path_memory known;
     path_memory_begin(&known, !is_spread(&p->picture->settings));
-    pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .memory = &known};
+    pixel remembering = {.picture = p->picture, .column = p->column, .row = p->row, .number = number, .memory = &known};
     shared_pixel shared;
     if (p->picture->shared && shared_light_find(p->picture->shared, p->column, p->row, &shared))
         remembering.shared = &shared;
-    estimate_with_parts(settings, number, least, sample_pixel, &remembering, &answer, parts);
+    const estimate_extras extras = {least, has_edge, parts};
+    estimate_with_extras(settings, number, &extras, sample_pixel, &remembering, &answer);
     return answer;
 }
 

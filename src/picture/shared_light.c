@@ -77,14 +77,13 @@ static void make_record(void *user, size_t index, int worker) {
         gather(s, sampler_key(s->trace->seed, index, 0x4000000u), r);
 }
 
-/* Diffuse reflections that only ask for indirect light find no lights, so these must all be sampled; what comes
- * straight through panes or by mirrors would be found twice. */
+/* Diffuse reflections that only ask for indirect light find no lights, so these must all be sampled. What comes
+ * straight through panes or by one mirror is; by more mirrors it counts as indirect (trace/path.c). */
 static bool is_of_use(const shared_light *s) {
     for (size_t i = 0; i < s->scene->light_count; i++)
         if (s->scene->lights[i].only_seen)
             return false;
-    return s->cache && s->settings->aperture == 0 && s->settings->shutter == 0 && context_samples_glows(s->trace) &&
-           !s->scene->has_panes && s->scene->mirror_count == 0;
+    return s->cache && s->settings->aperture == 0 && s->settings->shutter == 0 && context_samples_glows(s->trace);
 }
 
 static void lay_out(shared_light *s) {

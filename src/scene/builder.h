@@ -28,6 +28,11 @@ int scene_material_of_surface(scene_builder *, const rad_primitive *surface);
 /* Whether some light goes straight through some of it. */
 bool scene_material_is_pane(const graze_scene *, const scene_material *);
 
+/* Of a surface, whether lights are sampled in it if it is flat. */
+static inline bool scene_material_shows_lights(const scene_material *m) {
+    return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_MIRROR && !material_modifiers_lean(m->modifiers);
+}
+
 /* The material of a modifier, or a negative number where it has none that can be used (reported). */
 int scene_material_of_modifier(scene_builder *, int modifier);
 

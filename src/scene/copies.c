@@ -39,8 +39,9 @@ void scene_add_mixed_lights(scene_builder *b) {
 /* `user` is told of in messages. */
 static scene_surface make_surface(scene_builder *b, int primitive, int material, const shape *s,
                                   const rad_primitive *user) {
-    const graze_scene *scene = b->scene;
+    graze_scene *scene = b->scene;
     const int shining = scene_material_shining(scene, material);
+    scene->has_mirrors = scene->has_mirrors || scene_material_shows_lights(&scene->materials[material]);
     if (scene->materials[material].cuts || scene->materials[material].mist >= 0)
         scene_fail(
             b, rad_primitive_error(b->report, user, "mist or antimatter in an instance or a mesh is not supported"));

@@ -11,21 +11,31 @@
 /* A failure that is told once, where the material is first used. */
 #define MATERIAL_REFUSED (-2)
 
-static bool is_mirror(const scene_material *material) {
+/* A mirror that reflects no more than this straight on, as glass and varnish do, is faint: of the lights in it, much
+ * less comes than straight from the lights. */
+#define FAINT 0.1
+
+/* Whether reflections in a material may bring much light that no light sample finds. Of a flat `mirror`, lights are
+ * sampled; others of that material are found among the surfaces. */
+static bool is_mirror(const graze_scene *scene, const scene_material *material) {
     const vec3 normal = {0, 0, 1};
     graze_surface probe;
     switch (material->kind) {
     case SCENE_REFLECTOR:
     case SCENE_ORIENTED:
+        if (scene_material_shows_lights(material))
+            return false;
         graze_surface_prepare(&probe, &material->reflector, normal, normal, NULL);
-        return probe.specular_lobe == GRAZE_LOBE_MIRROR;
+        return probe.specular_lobe == GRAZE_LOBE_MIRROR && (material->modifiers || rgb_max(probe.specular) > FAINT);
     case SCENE_WGMD:
         return material->wgmd->may_mirror;
     case SCENE_FUNCTION:
         return material->reflection->mirrors;
+    case SCENE_MIXTURE:
+        return (material->fore >= 0 && scene_material_shows_lights(&scene->materials[material->fore])) ||
+               (material->back >= 0 && scene_material_shows_lights(&scene->materials[material->back]));
     case SCENE_EMITTER:
     case SCENE_PRISM:
-    case SCENE_MIXTURE:
     case SCENE_NOTHING:
         break;
     }
@@ -235,7 +245,7 @@ static int add_material(scene_builder *b, int modifier) {
         return MATERIAL_REFUSED;
     }
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(&made) || scene_material_bends(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(scene, &made) || scene_material_bends(&made);
     scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
     scene->has_refraction = scene->has_refraction || scene_material_bends(&made);
     return (int)scene->material_count++;

@@ -87,9 +87,12 @@ static void note_mirror(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
     const scene_material *m = &scene->materials[scene->surfaces[index].material];
     shape_kind kind = scene->shapes[index].kind;
-    if (m->kind != SCENE_REFLECTOR || material_modifiers_lean(m->modifiers) || m->reflector.kind != GRAZE_MIRROR ||
-        (kind != SHAPE_POLYGON && kind != SHAPE_RING))
+    if (!scene_material_shows_lights(m))
         return;
+    if (kind != SHAPE_POLYGON && kind != SHAPE_RING) {
+        scene->has_mirrors = true;
+        return;
+    }
     int *grown = realloc(scene->mirrors, (scene->mirror_count + 1) * sizeof *grown);
     if (!grown) {
         scene_fail(b, report_out_of_memory(b->report));

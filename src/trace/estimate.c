@@ -45,6 +45,9 @@ static bool is_enough(const graze_trace_settings *s, uint32_t least, const estim
     double allowed = s->error * fmax(value, s->floor);
     rgb variance = evidence_variance(&found->evidence, laws_of_mean(taken));
     double unseen = estimate_unseen_gloss(&judge->rare, judge->taken, (double)taken * ESTIMATE_HALVES);
+    /* Lights in mirrors are found too seldom to wait for: what is missing of them is stated. */
+    if (judge->rare.by_mirrors && taken >= SEARCH_BELIEVED / ESTIMATE_HALVES)
+        unseen = 0;
     return rgb_max(variance) / ESTIMATE_HALVES + unseen * unseen <= allowed * allowed;
 }
 
@@ -60,10 +63,21 @@ static bool is_torn(const graze_trace_settings *s, const estimate_half halves[ES
            rgb_max(answer->standard_error) > STATED_OF_PLACES * allowed;
 }
 
+/* Samples that differ by their places alone are few; where these have an edge, as many are taken as of noise. */
+static bool is_at_edge(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s,
+                       const estimate_extras *extras, void *user, const graze_answer *answer) {
+    double allowed = s->error * fmax(rgb_max(answer->value), s->floor);
+    if (!extras->has_edge || halves[0].luck != ESTIMATE_PLACE || halves[1].luck != ESTIMATE_PLACE ||
+        !extras->has_edge(user, answer->samples, allowed))
+        return false;
+    halves[0].luck = halves[1].luck = ESTIMATE_NOISY;
+    return true;
+}
+
 /* Doubles each half's samples until the other finds them enough, for good, or the limit is reached. What both together
  * then state may be more than the error asked for; going on because of that would have samples judge themselves: those
  * that found much and scatter would be added to, those that found little and scatter less would be believed. */
-static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s, uint32_t least,
+static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s, const estimate_extras *extras,
                    estimate_sample *sample, void *user, graze_answer *answer) {
     uint32_t limit = s->sample_limit / ESTIMATE_HALVES;
     bool enough[ESTIMATE_HALVES] = {false, false};
@@ -75,12 +89,12 @@ static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_sett
         const estimate_finding found[ESTIMATE_HALVES] = {estimate_finding_of(&halves[0], &halves[1]),
                                                          estimate_finding_of(&halves[1], &halves[0])};
         for (int i = 0; i < ESTIMATE_HALVES; i++)
-            enough[i] = enough[i] || is_enough(s, least, &halves[1 - i], &found[1 - i], halves[i].taken);
+            enough[i] = enough[i] || is_enough(s, extras->least, &halves[1 - i], &found[1 - i], halves[i].taken);
         bool reached = enough[0] && enough[1];
         if (!reached && !last)
             continue;
         estimate_summarize(halves, found, answer);
-        if (last || !is_torn(s, halves, answer))
+        if (last || (!is_torn(s, halves, answer) && !is_at_edge(halves, s, extras, user, answer)))
             return reached;
         enough[0] = enough[1] = false;
     }
@@ -88,7 +102,7 @@ static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_sett
 
 /* The first half has begun; the second one does where it is needed. */
 static void estimate_halves(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s, uint64_t stream,
-                            uint32_t least, estimate_sample *sample, void *user, graze_answer *answer) {
+                            const estimate_extras *extras, estimate_sample *sample, void *user, graze_answer *answer) {
     bool exact = estimate_half_take(&halves[0], sample, user) == ESTIMATE_EXACT;
     if (exact || s->samples == 1) {
         answer->value = estimate_not_negative(halves[0].sum[0]);
@@ -106,7 +120,7 @@ static void estimate_halves(estimate_half halves[ESTIMATE_HALVES], const graze_t
                                                          estimate_finding_of(&halves[1], &halves[0])};
         estimate_summarize(halves, found, answer);
     } else {
-        answer->converged = refine(halves, s, least, sample, user, answer);
+        answer->converged = refine(halves, s, extras, sample, user, answer);
     }
 }
 
@@ -123,18 +137,18 @@ static estimate_parts mean_parts(const estimate_half halves[ESTIMATE_HALVES]) {
     return mean;
 }
 
-void estimate_with_parts(const graze_trace_settings *s, uint64_t stream, uint32_t least, estimate_sample *sample,
-                         void *user, graze_answer *answer, estimate_parts *parts) {
+void estimate_with_extras(const graze_trace_settings *s, uint64_t stream, const estimate_extras *extras,
+                          estimate_sample *sample, void *user, graze_answer *answer) {
     estimate_half halves[ESTIMATE_HALVES];
-    estimate_half_begin(&halves[0], sampler_key(s->seed, stream, 0), parts != NULL);
+    estimate_half_begin(&halves[0], sampler_key(s->seed, stream, 0), extras->parts != NULL);
     halves[1].taken = 0;
     *answer = (graze_answer){.converged = 1};
-    estimate_halves(halves, s, stream, least, sample, user, answer);
-    if (parts)
-        *parts = mean_parts(halves);
+    estimate_halves(halves, s, stream, extras, sample, user, answer);
+    if (extras->parts)
+        *extras->parts = mean_parts(halves);
 }
 
 void estimate(const graze_trace_settings *s, uint64_t stream, estimate_sample *sample, void *user,
               graze_answer *answer) {
-    estimate_with_parts(s, stream, 0, sample, user, answer, NULL);
+    estimate_with_extras(s, stream, &(estimate_extras){.least = 0}, sample, user, answer);
 }

@@ -35,9 +35,20 @@ typedef struct estimate_parts {
     rgb indirect, albedo;
 } estimate_parts;
 
-/* As estimate, with the parts, too (which may be null). No error is believed before `least` samples are taken: so many
- * as others, such as neighbours in a picture, tell will be needed. */
-void estimate_with_parts(const graze_trace_settings *, uint64_t stream, uint32_t least, estimate_sample *, void *user,
-                         graze_answer *, estimate_parts *);
+/* Whether places have an edge among them that a few samples may all miss: a part of them, no more than 1/`samples`,
+ * that looks different by more than its size makes up for, if differences of `allowed` in the mean do not matter. */
+typedef bool estimate_has_edge(void *user, uint32_t samples, double allowed);
+
+/* What else there may be to an estimate. */
+typedef struct estimate_extras {
+    uint32_t least; /* no error is believed before so many samples are taken: as others, such as neighbours in a
+                       picture, tell will be needed */
+    estimate_has_edge
+        *has_edge;         /* is asked before samples that only differ by their places are believed; null: never */
+    estimate_parts *parts; /* null: not wanted */
+} estimate_extras;
+
+void estimate_with_extras(const graze_trace_settings *, uint64_t stream, const estimate_extras *, estimate_sample *,
+                          void *user, graze_answer *);
 
 #endif

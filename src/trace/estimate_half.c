@@ -75,7 +75,7 @@ void estimate_half_begin(estimate_half *h, uint64_t key, bool with_parts) {
     h->key = key;
     h->taken = 0;
     h->level = h->control_count = 0;
-    h->rare = (path_rare){0, 0, 0, 0};
+    h->rare = (path_rare){.times = 0};
     h->integrated = false;
     h->luck = ESTIMATE_EXACT;
     h->with_parts = with_parts;

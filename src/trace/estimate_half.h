@@ -36,6 +36,7 @@ static inline void estimate_add_rare(path_rare *sum, const path_rare *rare) {
     sum->squares += rare->squares;
     sum->found += rare->found;
     sum->times += rare->times;
+    sum->by_mirrors = sum->by_mirrors || rare->by_mirrors;
 }
 
 /* Before its first sample. */

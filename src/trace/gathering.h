@@ -38,6 +38,7 @@ typedef struct vertex {
 typedef struct lobe_choice {
     double diffuse, specular;
     bool diffuse_ends, specular_ends;
+    bool specular_splits; /* it is followed in any case, as a branch of the path; `specular` is 0 then */
 } lobe_choice;
 
 /* Large: not to be copied, also because the lights refer to the vertex. */

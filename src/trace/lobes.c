@@ -46,13 +46,25 @@ static double passage_chance(const path *p, rgb transmittance) {
     return p->depth + p->passages >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
+/* A source as wide as this is a sky. */
+#define SKY_HALF_ANGLE (PI / 6)
+
+static bool has_sky(const graze_scene *scene) {
+    for (size_t i = scene->first_source; i < scene->light_count; i++)
+        if (scene->lights[i].half_angle >= SKY_HALF_ANGLE)
+            return true;
+    return false;
+}
+
 /* Whether light is found by a lobe that may not go on, too: where Eq. 16 stands alone, and a gloss where it shares,
- * which light samples might miss; and what is refracted on its way no light sample finds. */
+ * which light samples might miss, as they mostly do a sky that is seen through windows; and what is refracted on its
+ * way no light sample finds. */
 static bool finds_lights(const path *p, graze_lobe lobe) {
     const graze_trace_settings *s = p->context->settings;
     const graze_scene *scene = p->context->scene;
     bool glossy = lobe == GRAZE_LOBE_GLOSSY || lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
-    bool shares = (s->strategy == GRAZE_STRATEGY_MIS && glossy) || scene->has_refraction;
+    bool shares = scene->has_refraction || (s->strategy == GRAZE_STRATEGY_MIS &&
+                                            (glossy || (p->indirect_known && p->depth == 0 && has_sky(scene))));
     return scene->light_count > 0 && (shares || !context_samples_lights(s));
 }
 
@@ -101,11 +113,30 @@ static lobe_choice chances_below(const path *p, const vertex *v) {
     return choice;
 }
 
+/* What a mirror shows, and what is behind a pane, are followed both as long as a path has not been scattered, and
+ * carries so much there; and not more often than there is room for. */
+#define WORTH_SPLITTING 0.02
+
+static bool splits_off(const path *p, graze_lobe lobe, double chance, rgb reflectance) {
+    return (lobe == GRAZE_LOBE_MIRROR || lobe == GRAZE_LOBE_TRANSMITTED) && chance >= 1 && !p->scattered &&
+           p->branches + 2 < PATH_BRANCHES && !p->context->observer && !p->context->record &&
+           rgb_max(rgb_multiply(p->throughput, reflectance)) >= WORTH_SPLITTING;
+}
+
+static void split(lobe_choice *choice) {
+    choice->specular = 0;
+    choice->specular_splits = true;
+}
+
 lobe_choice lobes_choose(const path *p, const vertex *v) {
     lobe_choice choice = chances_above(p, v);
     double diffuse = choice.diffuse, specular = choice.specular;
     if (diffuse == 0 || specular == 0)
         return choice;
+    if (splits_off(p, v->shading.specular_lobe, specular, v->shading.specular)) {
+        split(&choice);
+        return choice;
+    }
     double diffuse_share = diffuse * rgb_brightness(v->ambient);
     double specular_share = specular * rgb_brightness(v->shading.specular);
     double share = fmin(fmax(diffuse_share / (diffuse_share + specular_share), LEAST_SHARE), 1 - LEAST_SHARE);
@@ -122,6 +153,13 @@ void lobes_choose_both(const path *p, const vertex *v, lobe_choice *above, lobe_
     double shares[4], sum = 0, most = 0;
     *above = chances_above(p, v);
     *below = chances_below(p, v);
+    int lobes = (above->diffuse > 0) + (above->specular > 0) + (below->diffuse > 0) + (below->specular > 0);
+    if (lobes > 1 && splits_off(p, s->specular_lobe, above->specular, s->specular)) {
+        split(above);
+        lobes--;
+    }
+    if (lobes > 1 && splits_off(p, s->transmitted_lobe, below->specular, s->transmitted_specular))
+        split(below);
     for (int i = 0; i < 4; i++)
         sum += *chances[i] * rgb_brightness(reflectances[i]);
     for (int i = 0; i < 4; i++) {
@@ -302,4 +340,42 @@ bool lobes_go_on(path *p, const gathering *here, const other_side *beyond, vec3 
         return go_on(p, v, &here->lights, above, false, random, direction);
     random[3] -= reflected;
     return go_on(p, v, &beyond->lights, below, true, random, direction);
+}
+
+/* What the path would be if it went on there is put by, and the path left as it is. */
+static void put_by(path *p, const vertex *v, bool below, path_branches *branches) {
+    static const lobe_choice alone = {.specular = 1};
+    static const double random[4] = {0, 0, 0, 0};
+    const rgb throughput = p->throughput, medium = p->medium;
+    const scattering last = p->last;
+    const known_lights known = p->known;
+    const int depth = p->depth, passages = p->passages;
+    path_branch *b = &branches->waiting[branches->count];
+    if (go_on(p, v, NULL, &alone, below, random, &b->direction)) {
+        b->point = v->point;
+        b->surface = v->surface;
+        b->length = p->length;
+        b->throughput = p->throughput;
+        b->medium = p->medium;
+        b->last = p->last;
+        b->last.vertex = NULL;
+        b->depth = p->depth;
+        b->passages = p->passages;
+        branches->count++;
+        p->branches++;
+    }
+    p->throughput = throughput;
+    p->medium = medium;
+    p->last = last;
+    p->known = known;
+    p->depth = depth;
+    p->passages = passages;
+}
+
+void lobes_split(path *p, const vertex *v, const lobe_choice *above, const lobe_choice *below,
+                 path_branches *branches) {
+    if (above->specular_splits)
+        put_by(p, v, false, branches);
+    if (below && below->specular_splits)
+        put_by(p, v, true, branches);
 }

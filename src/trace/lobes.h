@@ -18,4 +18,7 @@ static inline bool lobes_may_reflect(const lobe_choice *choice) {
 bool lobes_reflect(path *, const vertex *, const light_choice *, const lobe_choice *, vec3 *direction);
 bool lobes_go_on(path *, const gathering *, const other_side *, vec3 *direction);
 
+/* Puts by the branches that split off there; `below` is null where there is but one side. */
+void lobes_split(path *, const vertex *, const lobe_choice *above, const lobe_choice *below, path_branches *);
+
 #endif

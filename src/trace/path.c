@@ -72,7 +72,7 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
 static void take_indirect(path *p, const vertex *v) {
     const path_indirect *known = p->context->indirect;
     const graze_trace_settings *s = p->context->settings;
-    if (!known || p->depth > 0 || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
+    if (!known || !path_is_at_first(p) || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
         return;
     rgb reflectance = rgb_scale(1 / PI, v->shading.diffuse);
     rgb value = rgb_multiply(reflectance, known->irradiance), error = rgb_multiply(reflectance, known->error);
@@ -137,12 +137,44 @@ static void gather_below(path *p, const vertex *v, const other_side *beyond) {
     p->known = above;
 }
 
-/* Gathers light at a vertex and goes on from there until the path ends. */
-static void follow(path *p, gathering *here) {
+/* Goes to what the ray from a point meets, after the reflection at the vertex there, or a branch's. False: the path
+ * ends there. */
+static bool arrive(path *p, vec3 point, int64_t surface, const vertex *v, vec3 direction, gathering *next) {
+    const path_context *context = p->context;
+    path_hit hit = path_cast(context, point, direction, GEOMETRY_FAR, surface);
+    if (context->scene->has_refraction)
+        attenuate(p, &hit);
+    if (mist_is_there(context))
+        mist_follow(p, point, direction, hit.distance);
+    rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
+    p->radiance = rgb_add(p->radiance, found);
+    observe_ray(p, point, &hit, found);
+    if (context->scene->has_secondary)
+        emission_pass_secondary(p, &hit);
+    if (p->last.first && !(p->gathering && p->last.refracted))
+        p->direct = p->radiance;
+    if (v && p->gloss && !rgb_is_black(found))
+        rare_gloss_find_met(p, v, &hit, found);
+    if (v && (p->known.controls | p->known.watched))
+        known_light_subtract_reflected(p, v, &hit, found);
+    next->decided = false;
+    if (!vertex_at_hit(p, &hit, &next->vertex) || take_from_cache(p, &hit, &next->vertex))
+        return false;
+    p->length += hit.distance;
+    return true;
+}
+
+/* Gathers light at a vertex and goes on from there until the path ends: from where a branch begins, if there is one. */
+static void walk(path *p, gathering *here, const path_branch *branch, path_branches *branches) {
     const path_context *context = p->context;
     const bool mist = mist_is_there(context);
     gathering later[2]; /* one of them has seen the lights that the last scattering refers to */
     other_side others[2];
+    if (branch) {
+        here = &later[0];
+        if (!arrive(p, branch->point, branch->surface, NULL, branch->direction, here))
+            return;
+    }
     for (;;) {
         vertex *v = &here->vertex;
         const bool transmits = v->shading.transmits;
@@ -169,6 +201,8 @@ static void follow(path *p, gathering *here) {
             gather_below(p, v, beyond);
         if (context->scene->mirror_count > 0 && !context->record)
             mirrored_light_add(p, v, &here->lobes);
+        if (!p->scattered)
+            lobes_split(p, v, &here->lobes, transmits ? &beyond->lobes : NULL, branches);
         const bool ends = !transmits && !lobes_may_reflect(&here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
         if (!ends && !context->observer && !mist && !decided && known_light_is_all(p, v, &here->lights))
@@ -181,27 +215,47 @@ static void follow(path *p, gathering *here) {
                                  : lobes_reflect(p, v, &here->lights, &here->lobes, &direction);
         if (!goes_on)
             return;
-        path_hit hit = path_cast(context, v->point, direction, GEOMETRY_FAR, v->surface);
-        if (context->scene->has_refraction)
-            attenuate(p, &hit);
-        if (mist)
-            mist_follow(p, v->point, direction, hit.distance);
-        rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
-        p->radiance = rgb_add(p->radiance, found);
-        observe_ray(p, v->point, &hit, found);
-        if (context->scene->has_secondary)
-            emission_pass_secondary(p, &hit);
-        if (p->gloss && p->last.lobe == GRAZE_LOBE_GLOSSY)
-            rare_gloss_find_met(p, v, &hit, found);
-        if (p->last.first)
-            p->direct = p->radiance;
-        if (p->known.controls | p->known.watched)
-            known_light_subtract_reflected(p, v, &hit, found);
         here = p->last.vertex == &later[0].vertex ? &later[1] : &later[0];
-        here->decided = false;
-        if (!vertex_at_hit(p, &hit, &here->vertex) || take_from_cache(p, &hit, &here->vertex))
+        if (!arrive(p, v->point, v->surface, v, direction, here))
             return;
-        p->length += hit.distance;
+    }
+}
+
+/* What has been found since the path scattered, but for what came straight from lights then, is indirect. */
+static void end_branch(path *p) {
+    if (p->scattered)
+        p->indirect_light = rgb_add(rgb_add_scaled(p->radiance, -1, p->direct), p->indirect_light);
+}
+
+/* Branches draw from groups of their own, so that their points are even however long the others are. */
+#define GROUPS_OF_BRANCH 4096u
+
+static void begin_branch(path *p, const path_branch *b, int number) {
+    p->noisy = p->noisy || p->sampler->group != p->first_group;
+    p->first_group = p->sampler->group = (uint32_t)number * GROUPS_OF_BRANCH;
+    p->length = b->length;
+    p->throughput = b->throughput;
+    p->medium = b->medium;
+    p->last = b->last;
+    p->depth = b->depth;
+    p->passages = b->passages;
+    p->known = (known_lights){.shared = true};
+    p->gloss = RARE_GLOSS_NONE;
+    p->ambient_depth = 0;
+    p->scattered = false;
+}
+
+/* Follows the path from a vertex, and all of its branches. */
+static void follow(path *p, gathering *here) {
+    path_branches branches;
+    branches.count = 0;
+    walk(p, here, NULL, &branches);
+    end_branch(p);
+    for (int number = 1; branches.count > 0; number++) {
+        const path_branch next = branches.waiting[--branches.count];
+        begin_branch(p, &next, number);
+        walk(p, here, &next, &branches);
+        end_branch(p);
     }
 }
 
@@ -211,6 +265,8 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->first_group = points->group;
+    p->branches = 0;
+    p->noisy = false;
     p->length = 0;
     p->throughput = (rgb){1, 1, 1};
     p->radiance = p->indirect_light = p->albedo = (rgb){0, 0, 0};
@@ -225,7 +281,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = p->gathering = p->indirect_known = false;
     p->control_count = 0;
-    p->rare = (path_rare){0, 0, 0, 0};
+    p->rare = (path_rare){.times = 0};
 }
 
 static void path_end(const path *p, path_sample *sample) {
@@ -236,11 +292,10 @@ static void path_end(const path *p, path_sample *sample) {
         sample->told[i] = p->told[i];
     sample->control_count = p->control_count;
     sample->rare = p->rare;
-    sample->noisy = p->sampler->group != p->first_group;
+    sample->noisy = p->noisy || p->sampler->group != p->first_group;
     sample->searching = p->searching;
     sample->integrated = p->integrated;
-    rgb later = p->scattered ? rgb_add_scaled(p->radiance, -1, p->direct) : rgb_gray(0);
-    sample->indirect = rgb_add(later, p->indirect_light);
+    sample->indirect = p->indirect_light;
     sample->albedo = p->albedo;
     for (int i = 0; i < p->control_count; i++)
         sample->controls[i] = p->controls[i];

@@ -24,12 +24,13 @@ typedef struct path_indirect {
     rgb told[IRRADIANCE_PARTS]; /* of it, what the irradiance cache says */
 } path_indirect;
 
-/* Brightness that small lights give by narrow gloss after a diffuse reflection (trace/rare_gloss.h). */
+/* Brightness that small lights give by narrow gloss, or in mirrors, after a diffuse reflection (trace/rare_gloss.h). */
 typedef struct path_rare {
     double expected; /* in the mean over all directions */
     double squares;  /* variance of what is then found */
     double found;
-    double times; /* how often something was expected */
+    double times;    /* how often something was expected */
+    bool by_mirrors; /* some of it in a mirror */
 } path_rare;
 
 typedef struct path_sample {

@@ -38,12 +38,32 @@ typedef enum rare_gloss {
     RARE_GLOSS_NONE, /* it does not */
     RARE_GLOSS_FLAT,
     RARE_GLOSS_CURVED,
+    RARE_GLOSS_MIRROR, /* flat, and met by luck alone */
 } rare_gloss;
+
+/* Where a path that has only been mirrored or let through is to go on, too. */
+typedef struct path_branch {
+    vec3 point, direction;
+    int64_t surface; /* that the point is on */
+    double length;   /* from the eye to there */
+    rgb throughput, medium;
+    scattering last;
+    int depth, passages;
+} path_branch;
+
+enum { PATH_BRANCHES = 8 };
+
+typedef struct path_branches {
+    path_branch waiting[PATH_BRANCHES];
+    int count;
+} path_branches;
 
 typedef struct path {
     const path_context *context;
     sampler *sampler;
-    uint32_t first_group; /* that the sampler was at */
+    uint32_t first_group; /* that the sampler was at when the path, or its branch, began */
+    int branches;         /* begun so far, but for the first */
+    bool noisy;           /* an earlier branch has drawn from the sampler */
     double length;        /* from the eye to the last vertex */
     rgb throughput, radiance;
     rgb told[IRRADIANCE_PARTS]; /* as in path_sample, where it is `cached` */

@@ -4,23 +4,31 @@
 #include "base/angle.h"
 #include "geometry/placed.h"
 #include "trace/context.h"
+#include "trace/mirrored_light.h"
 
 /* What is found in so large a part of all cases is not rare. */
 #define RARE 0.25
 
+/* 4 times the area of the ellipse that half vectors lie in, over pi: directions, turned by twice the angle, spread over
+ * so much where they leave the surface steeply. A mirror's do not spread. */
+static double spread(const vertex *v) {
+    const graze_surface *s = &v->shading;
+    return s->specular_lobe == GRAZE_LOBE_MIRROR ? 0 : 4 * s->lobe.alpha_x * s->lobe.alpha_y;
+}
+
 /* The part of all directions, each counted by its cosine, from which a light is seen in the gloss of a flat surface:
- * its image's, of the solid angle 1/density, and the lobe's. Half vectors lie in an ellipse of area pi ax ay;
- * directions, turned by twice the angle, spread over 4 times that where they leave the surface steeply. */
-static double share_of_directions(const graze_brdf *lobe, double density) {
-    return 4 * lobe->alpha_x * lobe->alpha_y + 1 / (PI * density);
+ * its image's, of the solid angle 1/density, and the lobe's. */
+static double share_of_directions(const vertex *v, double density) {
+    return spread(v) + 1 / (PI * density);
 }
 
 static bool is_rare(const vertex *v, double density) {
-    return density > 0 && share_of_directions(&v->shading.lobe, density) < RARE;
+    return density > 0 && share_of_directions(v, density) < RARE;
 }
 
 /* Notes what comes by one in 1/share of all cases. */
-static void expect(path *p, double expected, double share) {
+static void expect(path *p, const vertex *v, double expected, double share) {
+    p->rare.by_mirrors = p->rare.by_mirrors || v->shading.specular_lobe == GRAZE_LOBE_MIRROR;
     p->rare.times++;
     p->rare.expected += expected;
     p->rare.squares += expected * expected * (1 / share - 1);
@@ -37,8 +45,7 @@ void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, dou
         return;
     double often = fmax(expectation, 1.0 / p->context->scene->light_count);
     double cosine = vec3_dot(sample->direction, v->shading.n), times = 1 / (often * sample->density);
-    expect(p, brightness_by_gloss(p, v, sample) * times * cosine / PI,
-           share_of_directions(&v->shading.lobe, sample->density));
+    expect(p, v, brightness_by_gloss(p, v, sample) * times * cosine / PI, share_of_directions(v, sample->density));
 }
 
 /* Whether light from the direction arrives at the body that a vertex belongs to: there, or else where a ray from there
@@ -57,37 +64,75 @@ static bool body_is_lit(const path *p, const vertex *v, const light_sample *samp
     return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
 }
 
+/* The light as its middle shows it, if it is rare there and may be reflected by gloss. */
+static bool look_at_light(const path *p, const vertex *v, int index, light_sample *sample) {
+    static const double middle[2] = {0.5, 0.5};
+    const scene_light *light = &p->context->scene->lights[index];
+    *sample = light_draw(p->context->scene, v->point, p->length, index, middle);
+    if (sample->light < 0 || !is_rare(v, sample->density) || rgb_is_black(sample->radiance))
+        return false;
+    light_role role = light_role_at(light, sample->distance);
+    return role == LIGHT_DIRECT ||
+           (role == LIGHT_AMBIENT && !v->gloss_is_ambient && context_samples_glows(p->context->settings));
+}
+
 /* A ball spreads a beam evenly over all directions if it mirrors it, and about so if it has a narrow lobe. So do other
  * curved bodies in the mean over the ways that they may be turned. Of all points that are seen, in the light or not, as
  * many show the light as there are normals near the half vector. */
 static void expect_on_body(path *p, const vertex *v, int index) {
-    static const double middle[2] = {0.5, 0.5};
-    const scene_light *light = &p->context->scene->lights[index];
-    light_sample sample = light_draw(p->context->scene, v->point, p->length, index, middle);
-    if (sample.light < 0 || !is_rare(v, sample.density))
+    light_sample sample;
+    if (!look_at_light(p, v, index, &sample) || !body_is_lit(p, v, &sample))
         return;
-    light_role role = light_role_at(light, sample.distance);
-    bool counts = role == LIGHT_DIRECT ||
-                  (role == LIGHT_AMBIENT && !v->gloss_is_ambient && context_samples_glows(p->context->settings));
-    if (!counts || rgb_is_black(sample.radiance) || !body_is_lit(p, v, &sample))
-        return;
-    const graze_brdf *lobe = &v->shading.lobe;
     double half = sqrt(fmax((1 + vec3_dot(sample.direction, v->shading.view)) / 2, 0));
-    double share = lobe->alpha_x * lobe->alpha_y * fmax(half, 0.1) + 1 / (4 * PI * sample.density);
-    expect(p, brightness_by_gloss(p, v, &sample) / (4 * PI * sample.density), share);
+    double share = spread(v) / 4 * fmax(half, 0.1) + 1 / (4 * PI * sample.density);
+    expect(p, v, brightness_by_gloss(p, v, &sample) / (4 * PI * sample.density), share);
+}
+
+/* The lights in a flat mirror are not sampled, but looked at: each, or one of many. */
+static void expect_in_mirror(path *p, const vertex *v, int index, double expectation) {
+    const graze_scene *scene = p->context->scene;
+    light_sample sample;
+    if (!look_at_light(p, v, index, &sample))
+        return;
+    geometry_ray ray = {.origin = v->point, .direction = sample.direction, .far = sample.distance, .from = v->surface};
+    if (vec3_dot(sample.direction, v->shading.n) > 0 &&
+        !geometry_occluded(scene->geometry, &ray, scene->lights[index].surface))
+        rare_gloss_expect(p, v, &sample, expectation);
+}
+
+/* Whether what the mirror shows is found by light samples from where the path was scattered. */
+static bool is_sampled_mirror(const path *p, const vertex *v) {
+    return p->last.mirror < 0 && p->last.lobe < GRAZE_LOBE_MIRROR &&
+           mirrored_light_is_in(p->context->scene, v->surface);
+}
+
+static bool is_body(shape_kind kind) {
+    return kind == SHAPE_SPHERE || kind == SHAPE_CONE;
 }
 
 rare_gloss rare_gloss_at(path *p, const vertex *v) {
-    if (p->ambient_depth == 0 || v->shading.specular_lobe != GRAZE_LOBE_GLOSSY ||
-        !context_samples_lights(p->context->settings) || share_of_directions(&v->shading.lobe, HUGE_VAL) >= RARE)
+    graze_lobe lobe = v->shading.specular_lobe;
+    bool mirror = lobe == GRAZE_LOBE_MIRROR;
+    if (p->ambient_depth == 0 || (lobe != GRAZE_LOBE_GLOSSY && !mirror) ||
+        !context_samples_lights(p->context->settings) || spread(v) >= RARE || (mirror && is_sampled_mirror(p, v)))
         return RARE_GLOSS_NONE;
     const graze_scene *scene = p->context->scene;
-    shape_kind kind = geometry_find(scene->geometry, v->surface).shape->kind;
-    if (scene->light_count > PATH_FEW_LIGHTS || (kind != SHAPE_SPHERE && kind != SHAPE_CONE))
+    bool few = scene->light_count <= PATH_FEW_LIGHTS;
+    if (few && is_body(geometry_find(scene->geometry, v->surface).shape->kind)) {
+        for (int i = 0; i < (int)scene->light_count; i++)
+            expect_on_body(p, v, i);
+        return RARE_GLOSS_CURVED;
+    }
+    if (!mirror)
         return RARE_GLOSS_FLAT;
-    for (int i = 0; i < (int)scene->light_count; i++)
-        expect_on_body(p, v, i);
-    return RARE_GLOSS_CURVED;
+    if (few) {
+        for (int i = 0; i < (int)scene->light_count; i++)
+            expect_in_mirror(p, v, i, 1);
+    } else {
+        double count = (double)scene->light_count;
+        expect_in_mirror(p, v, (int)(sampler_1d(p->sampler) * count), 1 / count);
+    }
+    return RARE_GLOSS_MIRROR;
 }
 
 void rare_gloss_find(path *p, const vertex *v, double light_density, rgb found) {
@@ -96,8 +141,8 @@ void rare_gloss_find(path *p, const vertex *v, double light_density, rgb found) 
 }
 
 void rare_gloss_find_met(path *p, const vertex *v, const path_hit *hit, rgb found) {
-    if (!rgb_is_black(found))
-        rare_gloss_find(p, v,
-                        light_density(p->context->scene, v->point, hit->light, hit->direction, hit->point, hit->normal),
-                        found);
+    if (p->last.lobe != v->shading.specular_lobe)
+        return;
+    rare_gloss_find(
+        p, v, light_density(p->context->scene, v->point, hit->light, hit->direction, hit->point, hit->normal), found);
 }

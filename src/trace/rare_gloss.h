@@ -1,6 +1,6 @@
-/* Light that narrow gloss throws on diffuse surfaces. A path that a diffuse reflection leads to the gloss finds next to
- * nothing there of a small light, and once in a while a high peak. But what gloss reflects of it in the mean over all
- * directions is known: it tells how much light the peaks bring that no path has met yet. */
+/* Light that narrow gloss, or a mirror, throws on diffuse surfaces. A path that a diffuse reflection leads to the gloss
+ * finds next to nothing there of a small light, and once in a while a high peak. But what gloss reflects of it in the
+ * mean over all directions is known: it tells how much light the peaks bring that no path has met yet. */
 #ifndef TRACE_RARE_GLOSS_H
 #define TRACE_RARE_GLOSS_H
 
@@ -13,7 +13,7 @@ rare_gloss rare_gloss_at(path *, const vertex *);
  * often the light is sampled on the average. */
 void rare_gloss_expect(path *, const vertex *, const light_sample *, double expectation);
 
-/* Notes what the gloss reflects of a light there, which has been sampled or met. */
+/* Notes what the gloss reflects of a light there, which has been sampled, or met by the path's last reflection. */
 void rare_gloss_find(path *, const vertex *, double light_density, rgb found);
 void rare_gloss_find_met(path *, const vertex *, const path_hit *, rgb found);
 

@@ -149,6 +149,45 @@ static void light_that_goes_round_is_indirect(void **state) {
     sitting_end(&none);
 }
 
+/* A lamp and nothing else: a few samples may all fall on one side of its edges, which pixels' corners see. */
+static void edges_of_lamps_are_seen(void **state) {
+    (void)state;
+    static const char lamp[] = "void light l 0 0 3 1000 1000 1000\n"
+                               "l polygon lamp 0 0 12 -1 10 -.7 1.1 10 -.6 .9 10 .8 -1.2 10 .7\n";
+    graze_trace_settings trace = graze_trace_defaults(), many = trace;
+    picture_settings s = room_settings();
+    s.view.point = (vec3){0, 0, 0};
+    s.view.direction = (vec3){0, 1, 0};
+    s.view.horizontal = 20;
+    s.view.vertical = 15;
+    assert_int_equal(rad_view_prepare(&s.view, NULL, NULL), GRAZE_OK);
+    many.samples = 4096;
+    many.seed = 1;
+    sitting whole = sitting_of(lamp, &trace, &s), truth = sitting_of(lamp, &many, &s);
+    const float *value = plane(&whole, "G"), *error = plane(&whole, "standard_error.G"), *samples;
+    const float *right = plane(&truth, "G");
+    int edge = 0, within = 0, few = 0;
+    samples = plane(&whole, "samples.Y");
+    for (int i = 0; i < PIXELS; i++) {
+        if (right[i] == 0 || right[i] == 1000) {
+            few += samples[i] == 8;
+            continue;
+        }
+        edge++;
+        within += fabsf(value[i] - right[i]) <= 1.96f * error[i] + 1;
+        /* What no sample has met is a small part of the brighter side. */
+        assert_true(error[i] > 0 || fabsf(value[i] - right[i]) < 0.02f * 1000);
+    }
+    assert_true(edge > 60);
+    if (within < 0.93 * edge)
+        fail_msg("%d of %d edges' pixels are within", within, edge);
+    /* Nothing is paid where there is no edge, but for what the survey asks about an edge's neighbours. */
+    if (few < 0.8 * (PIXELS - edge))
+        fail_msg("%d of %d other pixels take few samples", few, PIXELS - edge);
+    sitting_end(&whole);
+    sitting_end(&truth);
+}
+
 static void stopping_ends_soon(void **state) {
     (void)state;
     graze_trace_settings trace = graze_trace_defaults();
@@ -168,6 +207,7 @@ int main(void) {
         cmocka_unit_test(what_is_not_wanted_changes_nothing),
         cmocka_unit_test(ambient_value_is_indirect),
         cmocka_unit_test(light_that_goes_round_is_indirect),
+        cmocka_unit_test(edges_of_lamps_are_seen),
         cmocka_unit_test(stopping_ends_soon),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

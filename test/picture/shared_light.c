@@ -1,4 +1,6 @@
 /* Pictures whose pixels share indirect light: the same on any number of threads, true, and sooner. */
+#include <stdio.h>
+
 #include "picture/state.h"
 #include "picture/support.h"
 
@@ -77,22 +79,37 @@ static void assert_errors_are_honest(const sitting *a, const sitting *b) {
 }
 
 /* Beside a picture of many samples, which shares nothing. */
+static void assert_true_picture(const char *text, double jitter) {
+    graze_trace_settings trace = tracing(), many = trace;
+    picture_settings s = settings_at(jitter);
+    many.samples = 256;
+    sitting whole = sitting_of(text, &trace, &s), truth = sitting_of(text, &many, &s);
+    assert_non_null(whole.picture->shared);
+    assert_null(truth.picture->shared);
+    assert_errors_are_honest(&whole, &truth);
+    assert_means_agree(&whole, &truth, "G", 0.01);
+    assert_means_agree(&whole, &truth, "direct.G", 0.01);
+    assert_means_agree(&whole, &truth, "indirect.G", 0.015);
+    sitting_end(&whole);
+    sitting_end(&truth);
+}
+
 static void what_is_shared_is_true(void **state) {
     (void)state;
-    for (int jitter = 0; jitter < 2; jitter++) {
-        graze_trace_settings trace = tracing(), many = trace;
-        picture_settings s = settings_at(jitter);
-        many.samples = 256;
-        sitting whole = sitting_of(rooms, &trace, &s), truth = sitting_of(rooms, &many, &s);
-        assert_non_null(whole.picture->shared);
-        assert_null(truth.picture->shared);
-        assert_errors_are_honest(&whole, &truth);
-        assert_means_agree(&whole, &truth, "G", 0.01);
-        assert_means_agree(&whole, &truth, "direct.G", 0.01);
-        assert_means_agree(&whole, &truth, "indirect.G", 0.015);
-        sitting_end(&whole);
-        sitting_end(&truth);
-    }
+    assert_true_picture(rooms, 0);
+    assert_true_picture(rooms, 1);
+}
+
+/* Panes before the window, and a flat mirror, show lights that must be found neither twice nor not at all. */
+static void what_is_shared_beside_panes_and_mirrors_is_true(void **state) {
+    (void)state;
+    static const char panes[] = "void glass clear 0 0 3 .9 .9 .9\n"
+                                "clear polygon pane 0 0 12 .1 .9 .9 .1 3.1 .9 .1 3.1 2.6 .1 .9 2.6\n"
+                                "void mirror silver 0 0 3 .8 .8 .8\n"
+                                "silver polygon glass 0 0 12 3.49 .2 .5 3.49 .2 2 3.49 1.3 2 3.49 1.3 .5\n";
+    char text[sizeof rooms + sizeof panes];
+    snprintf(text, sizeof text, "%s%s", rooms, panes);
+    assert_true_picture(text, 1);
 }
 
 static int pixels_of_few_samples(const sitting *s) {
@@ -136,6 +153,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_do_not_change_the_bytes),
         cmocka_unit_test(what_is_shared_is_true),
+        cmocka_unit_test(what_is_shared_beside_panes_and_mirrors_is_true),
         cmocka_unit_test(most_pixels_share),
         cmocka_unit_test(stopping_changes_nothing),
     };

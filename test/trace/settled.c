@@ -9,6 +9,7 @@
 
 #include "base/angle.h"
 #include "base/vector.h"
+#include "graze/material.h"
 #include "graze/trace.h"
 #include "support/scene_text.h"
 
@@ -169,10 +170,46 @@ static void as_without(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* What a pane shows and what is behind it are both followed: nothing is left to chance. */
+static void panes_are_exact(void **state) {
+    (void)state;
+    graze_scene *scene =
+        scene_from_text("void glass c 0 0 3 .9 .8 .7 c polygon pane 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0\n"
+                        "c polygon second 0 0 12 -5 -5 -1 5 -5 -1 5 5 -1 -5 5 -1\n"
+                        "void glow below 0 0 4 1 1 1 0 below source b 0 0 4 0 0 -1 180\n"
+                        "void glow above 0 0 4 20 20 20 0 above source a 0 0 4 0 0 1 180\n");
+    assert_non_null(scene);
+    graze_trace_settings s = graze_trace_defaults();
+    graze_ray ray = {.origin = {0, 0, 1}, .direction = {0.3, 0.2, -1}};
+    graze_material glass = {.kind = GRAZE_GLASS, .color = {0.9, 0.8, 0.7}, .refraction = 1.52};
+    graze_surface pane;
+    vec3 view = vec3_negate(vec3_safe_normalize(ray.direction));
+    graze_surface_prepare(&pane, &glass, (vec3){0, 0, 1}, view, NULL);
+    double r = pane.specular.g, t = pane.transmitted_specular.g, once = r + t * r * t,
+           all = r + t * r * t / (1 - r * r);
+    double through = t * t / (1 - r * r);
+    graze_answer answer;
+    graze_trace(scene, &s, &ray, 1, &answer, NULL);
+    /* Light that goes to and fro between the panes is left to chance, but for the first time. */
+    assert_true(once < all);
+    assert_true(fabs(answer.value.g - (20 * all + through)) <= 4 * answer.standard_error.g + 1e-12);
+    assert_true(answer.standard_error.g < 0.01 * answer.value.g && answer.samples <= 64);
+    graze_scene_destroy(scene);
+    scene = scene_from_text("void glass c 0 0 3 .9 .8 .7 c polygon pane 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0\n"
+                            "void glow below 0 0 4 1 1 1 0 below source b 0 0 4 0 0 -1 180\n"
+                            "void glow above 0 0 4 20 20 20 0 above source a 0 0 4 0 0 1 180\n");
+    assert_non_null(scene);
+    graze_trace(scene, &s, &ray, 1, &answer, NULL);
+    assert_int_equal(answer.samples, 1);
+    assert_true(fabs(answer.value.g - (20 * r + t)) < 1e-12);
+    graze_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_but_suns), cmocka_unit_test(nothing_but_a_lamp), cmocka_unit_test(something_black),
-        cmocka_unit_test(hidden_lamp),      cmocka_unit_test(not_settled),        cmocka_unit_test(as_without),
+        cmocka_unit_test(panes_are_exact), cmocka_unit_test(nothing_but_suns), cmocka_unit_test(nothing_but_a_lamp),
+        cmocka_unit_test(something_black), cmocka_unit_test(hidden_lamp),      cmocka_unit_test(not_settled),
+        cmocka_unit_test(as_without),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
