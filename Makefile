@@ -127,9 +127,11 @@ FUZZ_BASIS_measurements := fit
 FUZZ_BASIS_cal := cal
 FUZZ_BASIS_data := rad
 FUZZ_BASIS_scene := rad
+FUZZ_BASIS_answer := trace
 FUZZ_BASIS_parts := rad
 FUZZ_FLAGS_scene := -Wl,--wrap=whole_file_read_path,--wrap=rad_command_output,--wrap=access
 FUZZ_FLAGS_parts := $(FUZZ_FLAGS_scene)
+FUZZ_FLAGS_answer := $(FUZZ_FLAGS_scene)
 $(BUILD)/test/fuzz/replay.o: test/fuzz/replay.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$<)$(CC) $(ALL_CFLAGS) -Itest -MMD -MP -c -o $@ $<

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "material/amounts.h"
 #include "rad/transform.h"
 
 /* Squares of indices, and of their ratios, stay far from overflow. */
@@ -25,19 +26,12 @@ static graze_status check_count(const rad_primitive *p, uint32_t count, const gr
     return rad_primitive_error(report, p, "needs %u real arguments, not %u", (unsigned)count, (unsigned)p->real_count);
 }
 
-static graze_status check_signs(const rad_primitive *p, const graze_report *report) {
-    for (uint32_t i = 0; i < p->real_count; i++)
-        if (!(p->reals[i] >= 0))
-            return rad_primitive_error(report, p, "real argument %u is negative", (unsigned)i + 1);
-    return GRAZE_OK;
-}
-
 /* Of the types that have `roughnesses` of them, from the fifth argument on. */
 static graze_status check_reals(const rad_primitive *p, uint32_t count, uint32_t roughnesses,
                                 const graze_report *report) {
     graze_status status = check_count(p, count, report);
     if (status == GRAZE_OK)
-        status = check_signs(p, report);
+        status = material_check_amounts(p, p->real_count, report);
     for (uint32_t i = 4; i < 4 + roughnesses && status == GRAZE_OK; i++)
         if (p->reals[i] > GRAZE_ROUGHNESS_MAX)
             status = report_roughness(p, p->reals[i], report);
@@ -146,7 +140,7 @@ static rgb take_transmissivity(const rad_primitive *p, uint32_t first, const gra
 static graze_status read_glass(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = p->real_count == 4 ? GRAZE_OK : check_count(p, 3, report);
     if (status == GRAZE_OK)
-        status = check_signs(p, report);
+        status = material_check_amounts(p, p->real_count, report);
     if (status != GRAZE_OK)
         return status;
     double index = p->real_count == 4 ? p->reals[3] : GLASS_INDEX;
@@ -168,9 +162,8 @@ static graze_status check_index(const rad_primitive *p, double index, const graz
 
 static graze_status read_dielectric(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 5, report);
-    for (uint32_t i = 0; i < 3 && status == GRAZE_OK; i++)
-        if (!(p->reals[i] >= 0))
-            status = rad_primitive_error(report, p, "real argument %u is negative", (unsigned)i + 1);
+    if (status == GRAZE_OK)
+        status = material_check_amounts(p, 3, report);
     if (status != GRAZE_OK)
         return status;
     double index = p->reals[3] + p->reals[4] / MEAN_WAVELENGTH;
@@ -188,7 +181,7 @@ static graze_status read_dielectric(graze_material *m, const rad_primitive *p, c
 static graze_status read_interface(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 8, report);
     if (status == GRAZE_OK)
-        status = check_signs(p, report);
+        status = material_check_amounts(p, p->real_count, report);
     if (status == GRAZE_OK)
         status = check_index(p, p->reals[3], report);
     if (status == GRAZE_OK)
@@ -214,7 +207,7 @@ static double roughness_of(double power) {
 static graze_status read_ashik2(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 8, report);
     if (status == GRAZE_OK)
-        status = check_signs(p, report);
+        status = material_check_amounts(p, p->real_count, report);
     if (status != GRAZE_OK)
         return status;
     const double *a = p->reals;
@@ -240,7 +233,7 @@ static graze_status read_ashik2(graze_material *m, const rad_primitive *p, const
 static graze_status read_mirror(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 3, report);
     if (status == GRAZE_OK)
-        status = check_signs(p, report);
+        status = material_check_amounts(p, p->real_count, report);
     if (status != GRAZE_OK)
         return status;
     if (p->string_count > 1)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "material/amounts.h"
 
 /* What they are called with: a value from data, where there are some, the direction to the light, and the light's solid
  * angle, which is 0 for us: lights are seen point by point. */
@@ -25,17 +26,10 @@ bool material_reflects_by_function(rad_type type) {
     return type == RAD_PLASFUNC || type == RAD_METFUNC || type == RAD_BRTDFUNC || transmits(type) || has_data(type);
 }
 
-static graze_status check_signs(const rad_primitive *p, uint32_t count, const graze_report *report) {
-    for (uint32_t i = 0; i < count; i++)
-        if (!(p->reals[i] >= 0))
-            return rad_primitive_error(report, p, "real argument %u is negative", (unsigned)i + 1);
-    return GRAZE_OK;
-}
-
 /* `red green blue specularity`, and of those that transmit `transmission transmitted-specularity`. */
 static graze_status take_shares(material_reflection *r, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    graze_status status = check_signs(p, transmits(p->type) ? 6 : 4, report);
+    graze_status status = material_check_amounts(p, transmits(p->type) ? 6 : 4, report);
     if (status)
         return status;
     if (a[3] > 1)
@@ -89,7 +83,7 @@ static graze_status compile_function(material_reflection *r, material_library *l
 /* Nine reals are diffuse colours of the front, of the back, and of what comes through. */
 static graze_status take_colors(material_reflection *r, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    graze_status status = check_signs(p, 9, report);
+    graze_status status = material_check_amounts(p, 9, report);
     if (status)
         return status;
     const rgb front = {a[0], a[1], a[2]}, back = {a[3], a[4], a[5]}, through = {a[6], a[7], a[8]};

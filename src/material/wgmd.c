@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "material/amounts.h"
 #include "material/fresnel.h"
 
 /* String arguments. */
@@ -39,9 +40,9 @@ static bool may_be_smooth(const char *const *roughnesses) {
 
 static graze_status read_colors(material_wgmd *w, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    for (uint32_t i = 0; i < 9; i++)
-        if (!(a[i] >= 0))
-            return rad_primitive_error(report, p, "real argument %u is negative", (unsigned)i + 1);
+    graze_status status = material_check_amounts(p, 9, report);
+    if (status)
+        return status;
     w->front = (rgb){a[0], a[1], a[2]};
     w->back = (rgb){a[3], a[4], a[5]};
     w->beyond = (rgb){a[6], a[7], a[8]};

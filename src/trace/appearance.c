@@ -330,5 +330,5 @@ static rgb shining(const scene_material *materials, const scene_material *m, con
 rgb appearance_emission(const graze_scene *scene, const path_hit *hit, double length, rgb radiance) {
     const encounter of = encounter_meet(scene, hit, length);
     const scene_material *m = &scene->materials[scene_surface_at(scene, hit->surface).material];
-    return encounter_colored(radiance, shining(scene->materials, m, &of.ray, of.effect));
+    return rgb_multiply(radiance, shining(scene->materials, m, &of.ray, of.effect));
 }

@@ -1,6 +1,7 @@
 /* A hit as the functions of the surface's material know it. */
 #include "trace/encounter.h"
 
+#include "material/amounts.h"
 #include "scene/surface.h"
 
 static material_ray ray_of(const path_hit *hit, double length) {
@@ -57,6 +58,6 @@ vec3 encounter_lean(const path_hit *hit, const encounter *of, const material_eff
 
 rgb encounter_colored(rgb color, rgb pattern) {
     rgb c = rgb_multiply(color, pattern);
-    return (rgb){fmin(fmax(c.r, 0), SCENE_LARGEST_RADIANCE), fmin(fmax(c.g, 0), SCENE_LARGEST_RADIANCE),
-                 fmin(fmax(c.b, 0), SCENE_LARGEST_RADIANCE)};
+    return (rgb){fmin(fmax(c.r, 0), MATERIAL_LARGEST_AMOUNT), fmin(fmax(c.g, 0), MATERIAL_LARGEST_AMOUNT),
+                 fmin(fmax(c.b, 0), MATERIAL_LARGEST_AMOUNT)};
 }

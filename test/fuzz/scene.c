@@ -2,18 +2,6 @@
  * to use. Commands are taken apart, and xform is done, but nothing is run. */
 #include "fuzz/scene_files.h"
 
-/* Large arrays take long and prove nothing. */
-static bool has_large_array(const uint8_t *data, size_t size) {
-    int arrays = 0, digits = 0;
-    for (size_t i = 0; i < size; i++) {
-        arrays += i > 0 && data[i - 1] == '-' && (data[i] == 'a' || data[i] == 'f');
-        digits = data[i] >= '0' && data[i] <= '9' ? digits + 1 : 0;
-        if (arrays > 3 || (arrays > 0 && digits > 1))
-            return true;
-    }
-    return false;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int errors = 0;
     const graze_report report = {count_error, &errors};

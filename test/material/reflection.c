@@ -161,6 +161,7 @@ static void arguments_are_checked(void **state) {
     assert_refused("void BRTDfunc m 9 0 0 0 0 0 0 0 0 0 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 8 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 -1", "real argument 9 is negative");
+    assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 2e10", "real argument 9 is above 1e10");
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0. . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void BRTDfunc m 10 0 0 0 q 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 -1 0",
