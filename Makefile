@@ -172,7 +172,7 @@ $(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
 PARTS   := brdf material scene
 # Those of material's files that need scenes.
-FROM_SCENES      := from_primitive function library modifier modify orientation reflection wgmd
+FROM_SCENES      := amounts from_primitive function library modifier modify orientation prism reflection wgmd
 OBJECTS_brdf     := $(filter $(BUILD)/obj/brdf/%,$(OBJECTS))
 OBJECTS_material := $(filter-out $(FROM_SCENES:%=$(BUILD)/obj/material/%.o),$(filter $(BUILD)/obj/material/%,$(OBJECTS))) $(BUILD)/obj/base/vector.o
 OBJECTS_scene    := $(filter-out $(OBJECTS_brdf) $(filter-out %/vector.o,$(OBJECTS_material)),$(OBJECTS))
