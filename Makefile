@@ -177,7 +177,7 @@ OBJECTS_brdf     := $(filter $(BUILD)/obj/brdf/%,$(OBJECTS))
 OBJECTS_material := $(filter-out $(FROM_SCENES:%=$(BUILD)/obj/material/%.o),$(filter $(BUILD)/obj/material/%,$(OBJECTS))) $(BUILD)/obj/base/vector.o
 OBJECTS_scene    := $(filter-out $(OBJECTS_brdf) $(filter-out %/vector.o,$(OBJECTS_material)),$(OBJECTS))
 define part_rule
-$(BUILD)/parts/$(1).o: $(OBJECTS_$(1)) $(BUILD)/sources
+$(BUILD)/parts/$(1).o: $(OBJECTS_$(1)) $(BUILD)/sources Makefile
 	@mkdir -p $$(@D)
 	$$(call say,$$@)$$(LD) -r -o $$@ $(OBJECTS_$(1))
 	@$$(OBJCOPY) --localize-hidden $$@

@@ -33,7 +33,11 @@ graze_status scene_read_alternate(scene_builder *b, const rad_primitive *p, int 
     *alternate = scene_material_of_modifier(b, modifier);
     if (*alternate < 0)
         return b->status;
-    const scene_material *seen = scene_material_seen(b->scene, &b->scene->materials[*alternate]);
+    const scene_material *seen = &b->scene->materials[*alternate];
+    if (scene_material_is_volume(seen))
+        return rad_primitive_error(b->report, p, "it names %.64s, which is mist or antimatter: that is not supported",
+                                   name);
+    seen = scene_material_seen(b->scene, seen);
     return scene_material_emits(seen) ? rad_primitive_error(b->report, p, "it is seen as %s, which shines", name)
                                       : GRAZE_OK;
 }

@@ -162,6 +162,11 @@ static inline bool scene_material_emits(const scene_material *m) {
     return m->kind == SCENE_EMITTER;
 }
 
+/* Whether it says what is inside of its surfaces, not what these are. */
+static inline bool scene_material_is_volume(const scene_material *m) {
+    return m->mist >= 0 || m->cuts;
+}
+
 /* Which material it shines by, itself or one in its mixtures; or -1. */
 static inline int scene_material_shining(const graze_scene *scene, int material) {
     const scene_material *m = &scene->materials[material];

@@ -174,9 +174,9 @@ fails "... a file that cannot be written" 1 "no/where" "" "$gtrace" -e no/where 
 # Features.
 check "-features lists" grep -q '^OutputFormats=a,f,d,c$' <("$gtrace" -features)
 check "-features checks" "$gtrace" -features PathTracing Outputs=v,e
-check "... of scenes" "$gtrace" -features VirtualSources MaterialMixtures Instancing=TriangleMesh ScatteringModels=WGMD
+check "... of scenes" "$gtrace" -features VirtualSources MaterialMixtures Instancing=TriangleMesh ScatteringModels=WGMD Antimatter ParticipatingMedia=Mist
 check "... parts of one" test "$("$gtrace" -features InputFormats)" = InputFormats=a,f,d
-fails "a feature that is not there" 1 "missing feature - Antimatter" "" "$gtrace" -features PathTracing Antimatter
+fails "a feature that is not there" 1 "missing feature - TabulatedBSDFs" "" "$gtrace" -features PathTracing TabulatedBSDFs
 fails "a part that is not there" 1 "missing feature - Outputs=v,q" "" "$gtrace" -features Outputs=v,q
 fails "-features behind another option" 1 "first" "" "$gtrace" -w -features
 

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -82,7 +83,9 @@ static void antimatter_is_checked(void **state) {
         "0 0 1\n",
         "antimatter i", "cuts l, which shines");
     assert_refused("void antimatter j 1 void 0 0 void antimatter i 1 j 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i",
-                   "cannot be cut");
+                   "names j, which is mist or antimatter");
+    assert_refused("void antimatter j 1 void 0 0 void antimatter i 2 void j 0 0 i sphere s 0 0 4 0 0 0 1\n",
+                   "antimatter i", "names j, which is mist or antimatter");
     graze_scene *scene = scene_from_text("void antimatter i 2 void no 0 0 i sphere s 0 0 4 0 0 0 1");
     assert_non_null(scene);
     assert_non_null(strstr(messages, "antimatter i: there is no modifier 'no' before it, which it could cut"));
@@ -103,6 +106,22 @@ static void mist_is_checked(void **state) {
     assert_non_null(strstr(messages, "mist i: there is no light 'b'"));
     assert_non_null(strstr(messages, "mist i: light 'a' is listed twice"));
     graze_scene_destroy(scene);
+}
+
+/* What is inside of their surfaces tells, so nothing on a surface can stand for them. */
+static void mist_and_antimatter_stand_alone(void **state) {
+    (void)state;
+    const char *volumes[] = {"void mist v 0 0 3 1 1 1 ", "void antimatter v 1 void 0 0 "};
+    const char *users[] = {
+        "void illum i 1 v 0 3 1 1 1 ",       "void mirror i 1 v 0 3 1 1 1 ",
+        "void antimatter i 1 v 0 0 ",        "void antimatter i 2 void v 0 0 ",
+        "void mixfunc i 4 v void .5 . 0 0 ", "void plastic p 0 0 5 1 1 1 0 0 void mixfunc i 4 p v .5 . 0 0 "};
+    for (size_t v = 0; v < 2; v++)
+        for (size_t u = 0; u < sizeof users / sizeof *users; u++) {
+            char text[200];
+            snprintf(text, sizeof text, "%s%si sphere s 0 0 4 0 0 0 1\n", volumes[v], users[u]);
+            assert_refused(text, " i: ", "mist or antimatter");
+        }
 }
 
 static void all_mistakes_are_told_at_once(void **state) {
@@ -272,6 +291,7 @@ int main(void) {
         cmocka_unit_test(alternates_of_mirrors_are_checked),
         cmocka_unit_test(antimatter_is_checked),
         cmocka_unit_test(mist_is_checked),
+        cmocka_unit_test(mist_and_antimatter_stand_alone),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),
         cmocka_unit_test(sources_come_last_and_lights_before_glows),
