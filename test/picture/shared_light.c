@@ -112,6 +112,26 @@ static void what_is_shared_beside_panes_and_mirrors_is_true(void **state) {
     assert_true_picture(text, 1);
 }
 
+/* A glow in a mixture lights what is about, but only by reflections that lead to it; a light there lights nothing. */
+static void lights_that_are_only_met_are_not_lost(void **state) {
+    (void)state;
+    static const char shutter[] = "void %s bright 0 0 %s\n"
+                                  "void plastic dark 0 0 5 .1 .1 .1 0 0\n"
+                                  "void mixfunc half 4 bright dark .5 . 0 0\n"
+                                  "half polygon shutter 0 0 12 3.4 .2 .4 3.4 .2 2.2 3.4 1.2 2.2 3.4 1.2 .4\n";
+    char text[sizeof rooms + sizeof shutter + 32];
+    size_t length = (size_t)snprintf(text, sizeof text, "%s", rooms);
+    snprintf(text + length, sizeof text - length, shutter, "light", "3 9 9 9");
+    assert_true_picture(text, 1);
+    snprintf(text + length, sizeof text - length, shutter, "glow", "4 9 9 9 0");
+    graze_trace_settings trace = tracing();
+    picture_settings s = settings_at(1);
+    sitting met = sitting_of(text, &trace, &s);
+    assert_non_null(met.picture->cache);
+    assert_null(met.picture->shared);
+    sitting_end(&met);
+}
+
 static int pixels_of_few_samples(const sitting *s) {
     int count = 0;
     for (int i = 0; i < ALL; i++)
@@ -154,6 +174,7 @@ int main(void) {
         cmocka_unit_test(threads_do_not_change_the_bytes),
         cmocka_unit_test(what_is_shared_is_true),
         cmocka_unit_test(what_is_shared_beside_panes_and_mirrors_is_true),
+        cmocka_unit_test(lights_that_are_only_met_are_not_lost),
         cmocka_unit_test(most_pixels_share),
         cmocka_unit_test(stopping_changes_nothing),
     };
