@@ -1,7 +1,6 @@
 /* Reading definitions. */
 #include "cal/program_internal.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
