@@ -32,13 +32,13 @@ typedef struct rad_job {
     int file_count, next_file;
 } rad_job;
 
-/* A sink that appends to a list: its `take` is rad_list_append. */
+/* What a sink that appends to a list has as its `user`; rad_list_append is its `take`. */
 typedef struct rad_list_sink {
     rad_reader *reader;
     rad_list *list;
 } rad_list_sink;
 
-graze_status rad_list_append(void *list_sink, rad_raw *);
+graze_status rad_list_append(void *user, rad_raw *);
 void rad_list_free(rad_list *);
 
 /* Where primitives go when they have been through the filter. */
