@@ -1,7 +1,6 @@
 /* Reading options by their table. */
 #include "base/options.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* What the diffuse term reflects of a whole light: Lambert's formula, half the mean height of the outline's normals. */
 #include <math.h>
-#include <stdbool.h>
 
 #include "brdf/constants.h"
 #include "brdf/gauss.h"

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "brdf/arithmetic.h"
-
 static graze_vec3 sum(double s, graze_vec3 a, double t, graze_vec3 b) {
     return (graze_vec3){s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }

@@ -15,8 +15,6 @@ void *cal_graph_allocate(cal_graph *, size_t size);
 /* A value whose operands are to be set. These let null pass. */
 cal_value *cal_value_new(cal_graph *, cal_value_kind, int operand_count);
 cal_value *cal_value_set(cal_graph *, cal_value *, int index, cal_value *operand);
-/* The value of the unit that is the same as this new one, which then is given up, or this one. */
-cal_value *cal_value_unique(cal_graph *, cal_value *);
 
 cal_value *cal_value_constant(cal_graph *, double number, bool effect);
 cal_value *cal_value_leaf(cal_graph *, cal_value_kind, int index);

@@ -1,7 +1,6 @@
 /* Reading definitions. */
 #include "cal/program_internal.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -171,12 +170,6 @@ graze_status cal_program_add_file(cal_program *program, const char *name, const 
 
 uint64_t cal_program_fingerprint(const cal_program *program) {
     return program->fingerprint;
-}
-
-bool cal_program_defines(cal_program *program, const char *file, const char *name) {
-    const char *context = cal_context_of_file(program->memory, file);
-    const cal_symbol *symbol = context ? cal_symbols_find(&program->symbols, context, name) : NULL;
-    return symbol ? symbol->definition || symbol->library : context && cal_library_find(name);
 }
 
 int cal_program_parameter_count(cal_program *program, const char *file, const char *name) {

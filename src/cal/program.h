@@ -92,9 +92,6 @@ graze_status cal_program_add_file(cal_program *, const char *name, const cal_fin
 /* A number (base/fingerprint.h) of all the text that was read, and of the contexts that it was read into. */
 uint64_t cal_program_fingerprint(const cal_program *);
 
-/* Whether a name used in the context of `file` is defined, as a variable or as a function. */
-bool cal_program_defines(cal_program *, const char *file, const char *name);
-
 /* How many parameters the function of that name has, in the context of `file`; 0 for a variable or an unknown name;
  * of those of the library that take any number, the least. */
 int cal_program_parameter_count(cal_program *, const char *file, const char *name);

@@ -64,7 +64,8 @@ static bool is_same(const cal_value *a, const cal_value *b) {
     return true;
 }
 
-cal_value *cal_value_unique(cal_graph *g, cal_value *v) {
+/* The value of the unit that is the same as this new one, which then is given up, or this one. */
+static cal_value *unique_value(cal_graph *g, cal_value *v) {
     if (!v || v->effect)
         return v;
     cal_value **slot = &g->tables[g->unit != 0][hash_of(v)];
@@ -85,7 +86,7 @@ cal_value *cal_value_constant(cal_graph *g, double number, bool effect) {
         return NULL;
     v->number = number;
     v->effect = effect;
-    return cal_value_unique(g, v);
+    return unique_value(g, v);
 }
 
 cal_value *cal_value_leaf(cal_graph *g, cal_value_kind kind, int index) {
@@ -94,7 +95,7 @@ cal_value *cal_value_leaf(cal_graph *g, cal_value_kind kind, int index) {
         return NULL;
     v->index = index;
     v->effect = kind == CAL_V_PARAMETER;
-    return cal_value_unique(g, v);
+    return unique_value(g, v);
 }
 
 cal_value *cal_value_failing(cal_graph *g, const cal_node *node, const char *format, ...) {
@@ -174,7 +175,7 @@ cal_value *cal_value_binary(cal_graph *g, cal_value_kind kind, cal_value *a, cal
     if (!cal_value_set(g, v, 0, a) || !cal_value_set(g, v, 1, b))
         return NULL;
     v->effect |= kind == CAL_V_DIVIDE && !(cal_value_is_constant(b) && b->number != 0);
-    return cal_value_unique(g, v);
+    return unique_value(g, v);
 }
 
 cal_value *cal_value_negate(cal_graph *g, cal_value *a) {
@@ -183,7 +184,7 @@ cal_value *cal_value_negate(cal_graph *g, cal_value *a) {
     if (cal_value_is_constant(a))
         return cal_value_constant(g, -a->number, a->effect);
     cal_value *v = cal_value_new(g, CAL_V_NEGATE, 1);
-    return cal_value_unique(g, cal_value_set(g, v, 0, a));
+    return unique_value(g, cal_value_set(g, v, 0, a));
 }
 
 /* Its value is that of a function of the library already, computed here and not before. */

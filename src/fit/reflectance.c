@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/angle.h"
 #include "fit/lobe_problem.h"
 
 /* The starting points are tried on about so many pairs at most, and on the mean of the channels. */

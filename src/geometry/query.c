@@ -1,7 +1,6 @@
 /* Rays as they are asked for, and the answers. */
 #include <math.h>
 
-#include "geometry/placed.h"
 #include "geometry/query.h"
 
 /* An origin that is given from outside is as good as its first digits. */

@@ -2,7 +2,6 @@
  */
 #include <math.h>
 
-#include "geometry/placed.h"
 #include "geometry/query.h"
 
 /* The sine of the angle up to which they may be turned against each other: where they are as close as double precision

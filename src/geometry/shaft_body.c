@@ -1,5 +1,4 @@
 /* Whether a surface leaves a shaft of rays free, or closes it. */
-#include <float.h>
 
 #include "geometry/geometry_internal.h"
 #include "geometry/shaft_internal.h"

@@ -3,7 +3,6 @@
 #include "image/module.h"
 
 #include <dlfcn.h>
-#include <errno.h>
 #include <limits.h>
 #include <link.h>
 #include <stdbool.h>

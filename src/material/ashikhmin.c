@@ -1,6 +1,5 @@
 /* The lobe of ashik2: the anisotropic Phong model of Ashikhmin and Shirley, as Radiance has it (graze/material.h). */
 #include "base/angle.h"
-#include "graze/brdf.h"
 #include "material/lobes.h"
 
 /* The exponent of cos(delta), for a half vector (x, y, z) of any length. */

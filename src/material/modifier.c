@@ -84,15 +84,10 @@ static bool is_unsupported_pattern(rad_type type) {
 
 /* The latest modifier of that name before the primitive. */
 static graze_status find_modifier(const material_modifiers *m, const rad_primitive *p, const char *name, int *found) {
-    *found = RAD_VOID;
-    if (!strcmp(name, "void"))
-        return GRAZE_OK;
-    for (const rad_primitive *q = p; q-- > m->primitives;)
-        if (!rad_type_is_surface(q->type) && !strcmp(q->id, name)) {
-            *found = (int)(q - m->primitives);
-            return GRAZE_OK;
-        }
-    return rad_primitive_error(&m->report, p, "there is no modifier '%.64s' before it", name);
+    *found = strcmp(name, "void") ? rad_modifier_before(m->primitives, p, name) : RAD_VOID;
+    if (*found == RAD_VOID && strcmp(name, "void"))
+        return rad_primitive_error(&m->report, p, "there is no modifier '%.64s' before it", name);
+    return GRAZE_OK;
 }
 
 static graze_status make_modifier(material_modifiers *, int index, int depth, material_modifier **result);

@@ -1,7 +1,6 @@
 /* The rough lobe on a surface's other side: Radiance's Gaussian about the direction straight on, without more light
  * getting through towards the horizon than arrives (graze/material.h). */
 #include "base/angle.h"
-#include "graze/brdf.h"
 #include "material/lobes.h"
 
 /* The lobe about the direction straight on, in the shading frame. */

@@ -1,7 +1,6 @@
 /* Octrees and meshes by name; copies within copies. */
 #include "rad/scene_file.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -93,6 +93,13 @@ __attribute__((format(printf, 2, 0))) static message compose(const rad_primitive
     return m;
 }
 
+int rad_modifier_before(const rad_primitive *first, const rad_primitive *end, const char *name) {
+    for (const rad_primitive *p = end; p-- > first;)
+        if (!rad_type_is_surface(p->type) && !strcmp(p->id, name))
+            return (int)(p - first);
+    return RAD_VOID;
+}
+
 place rad_primitive_place(const rad_primitive *primitive, rad_primitive_name *name) {
     snprintf(name->text, sizeof name->text, "%s %s", rad_type_name(primitive->type),
              rad_show(primitive->id, strlen(primitive->id)).text);

@@ -145,6 +145,10 @@ size_t rad_scene_count(const rad_scene *, rad_type);
 const rad_part *rad_scene_parts(const rad_scene *, size_t *count);
 const rad_copy *rad_scene_copies(const rad_scene *);
 
+/* The latest modifier of that name among the primitives from `first` on that are before `end`: its index from `first`,
+ * or RAD_VOID where there is none. */
+int rad_modifier_before(const rad_primitive *first, const rad_primitive *end, const char *name);
+
 /* "sphere ball" */
 typedef struct rad_primitive_name {
     char text[120];

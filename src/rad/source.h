@@ -15,6 +15,13 @@ typedef struct rad_source {
     bool any;                /* primitives found */
 } rad_source;
 
+static inline place rad_source_place(const rad_source *s, int line, int column) {
+    return (place){.file = s->name, .line = line, .column = column, .parent = s->context->parent};
+}
+
+/* A place for as long as the reader's memory; null where that is short. */
+place *rad_keep_place(rad_reader *, place);
+
 /* Reads the primitive that begins here, and keeps its place, which *where may change. */
 graze_status rad_source_primitive(rad_source *, int line, int column, rad_raw *, place **where);
 /* Reads primitives, comments and commands up to the first that begins at `until` or later. */

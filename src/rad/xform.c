@@ -1,165 +1,18 @@
 /* xform, done here: options, arrays and the transform of a whole scene. */
 #include "rad/xform.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "base/whole_file.h"
 #include "rad/command.h"
-#include "rad/filter.h"
 #include "rad/path.h"
 #include "rad/words.h"
+#include "rad/xform_job.h"
 
-enum {
-    KEPT_FILES = 16,          /* an array reads each of its files once, if they are not more */
-    INSTANCES_MOST = 10000000 /* of one command: a slip of the finger should not fill the memory */
-};
-
-/* Primitives that are needed again, or that the next stage of a pipeline waits for. */
-typedef struct list {
-    rad_raw *items;
-    size_t count, capacity;
-} list;
-
-/* One stage of a pipeline being done. */
-typedef struct job {
-    rad_reader *reader;
-    const rad_context *context;
-    const place *command; /* what brings in files */
-    const rad_sink *sink;
-    list *input;               /* its standard input; or null: there is nothing on it */
-    const whole_file *options; /* its standard input, where that is an argument file */
-    bool once;                 /* no array and no argument file: everything is read and transformed once */
-    long instances;
-    struct {
-        const char *name;
-        bool expand;
-        list primitives;
-    } files[KEPT_FILES];
-    int file_count, next_file;
-} job;
-
-/* ---- Lists ---- */
-
-typedef struct list_sink {
-    rad_reader *reader;
-    list *list;
-} list_sink;
-
-static graze_status append(void *user, rad_raw *raw) {
-    list_sink *s = user;
-    list *l = s->list;
-    if (l->count == l->capacity) {
-        size_t capacity = l->capacity ? 2 * l->capacity : 64;
-        rad_raw *items = realloc(l->items, capacity * sizeof *items);
-        if (!items)
-            return report_out_of_memory_at(s->reader->report, raw->where);
-        l->items = items;
-        l->capacity = capacity;
-    }
-    l->items[l->count++] = *raw;
-    return GRAZE_OK;
-}
-
-static void list_free(list *l) {
-    free(l->items);
-    *l = (list){0};
-}
-
-/* ---- Primitives through the filter ---- */
-
-typedef struct filter_sink {
-    rad_reader *reader;
-    const rad_filter *filter;
-    const rad_sink *sink;
-} filter_sink;
-
-static graze_status take_through_filter(void *user, rad_raw *raw) {
-    filter_sink *s = user;
-    graze_status status = rad_filter_apply(s->filter, s->reader, raw);
-    return status ? status : s->sink->take(s->sink->user, raw);
-}
-
-/* Sends copies of a list's primitives through the filter: the list is needed again. */
-static graze_status filter_list(const job *j, const list *l, filter_sink *filtered) {
-    graze_status status = GRAZE_OK;
-    for (size_t i = 0; i < l->count && !status; ++i) {
-        rad_raw raw = l->items[i];
-        if (raw.real_count && !j->once) {
-            double *reals = arena_allocate(j->reader->memory, raw.real_count * sizeof *reals);
-            if (!reals)
-                return report_out_of_memory_at(j->reader->report, j->context->parent);
-            memcpy(reals, raw.reals, raw.real_count * sizeof *reals);
-            raw.reals = reals;
-        }
-        status = take_through_filter(filtered, &raw);
-    }
-    return status;
-}
-
-/* ---- Files ---- */
-
-/* xform goes to the file for the commands in it, unless it leaves them as they are. */
-static graze_status read_file(const job *j, const char *name, bool expand, const rad_sink *sink) {
-    arena *memory = j->reader->memory;
-    const graze_report *report = j->reader->report;
-    bool found;
-    const char *path = rad_path_find(memory, j->context->directory, name, &found);
-    if (!path)
-        return report_out_of_memory_at(report, j->context->parent);
-    if (!found) {
-        errno = ENOENT;
-        return report_file_error(report, j->context->parent, "xform: cannot find file \"%s\"",
-                                 rad_show(name, strlen(name)).text);
-    }
-    if (!strncmp(path, "./", 2))
-        path += 2;
-    rad_context inner = *j->context;
-    inner.parent = j->command;
-    if (expand) {
-        bool own;
-        inner.directory = rad_path_directory(memory, path, &own);
-        if (!inner.directory && !own)
-            return report_out_of_memory_at(report, j->context->parent);
-    }
-    return rad_reader_file(j->reader, path, &inner, sink);
-}
-
-static graze_status keep_file(job *j, const char *name, bool expand, const list **primitives) {
-    for (int i = 0; i < j->file_count; ++i)
-        if (j->files[i].expand == expand && !strcmp(j->files[i].name, name)) {
-            *primitives = &j->files[i].primitives;
-            return GRAZE_OK;
-        }
-    /* It may be the numbered name of an array's instance, which does not last. */
-    const char *kept_name = arena_copy_text(j->reader->memory, name, strlen(name));
-    if (!kept_name)
-        return report_out_of_memory_at(j->reader->report, j->context->parent);
-    int room = j->next_file;
-    j->next_file = (room + 1) % KEPT_FILES;
-    if (j->file_count < KEPT_FILES)
-        ++j->file_count;
-    list *l = &j->files[room].primitives;
-    list_free(l);
-    j->files[room].name = kept_name;
-    j->files[room].expand = expand;
-    *primitives = l;
-    list_sink kept = {j->reader, l};
-    return read_file(j, name, expand, &(rad_sink){append, &kept});
-}
-
-static graze_status filter_file(job *j, const char *name, bool expand, filter_sink *filtered) {
-    if (j->once)
-        return read_file(j, name, expand, &(rad_sink){take_through_filter, filtered});
-    const list *primitives = NULL;
-    graze_status status = keep_file(j, name, expand, &primitives);
-    return status ? status : filter_list(j, primitives, filtered);
-}
-
-/* ---- The command line ---- */
+/* Of one command: a slip of the finger should not fill the memory. */
+enum { INSTANCES_MOST = 10000000 };
 
 static const char *what_is_wrong(const char *word) {
     static const char *const first[] = {"-m", "-n", "-c", "-e", "-I"};
@@ -169,18 +22,18 @@ static const char *what_is_wrong(const char *word) {
     return rad_transform_wants(word);
 }
 
-static graze_status command_line_error(const job *j, const char *word) {
+static graze_status command_line_error(const rad_job *j, const char *word) {
     return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s': %s",
                         rad_show(word, strlen(word)).text, what_is_wrong(word));
 }
 
-static graze_status too_many_instances(const job *j) {
+static graze_status too_many_instances(const rad_job *j) {
     return report_error(j->reader->report, j->context->parent, "xform: more than %d instances", INSTANCES_MOST);
 }
 
 /* Reads the options before the transform; *used tells how many words they are. */
-static graze_status read_options(const job *j, const char *const *words, int count, rad_filter *filter, bool *expand,
-                                 int *used) {
+static graze_status read_options(const rad_job *j, const char *const *words, int count, rad_filter *filter,
+                                 bool *expand, int *used) {
     arena *memory = j->reader->memory;
     int i = 1;
     for (; i < count && words[i][0] == '-'; ++i) {
@@ -210,7 +63,7 @@ static graze_status read_options(const job *j, const char *const *words, int cou
 }
 
 /* One run of the program, without -a and -f. */
-static graze_status run_once(job *j, const char *const *words, int count) {
+static graze_status run_once(rad_job *j, const char *const *words, int count) {
     const graze_report *report = j->reader->report;
     if (++j->instances > INSTANCES_MOST)
         return too_many_instances(j);
@@ -227,17 +80,17 @@ static graze_status run_once(job *j, const char *const *words, int count) {
         return command_line_error(j, words[used]);
     if (!in_range)
         return report_error(report, j->context->parent, "xform: transform out of range");
-    filter_sink filtered = {j->reader, &filter, j->sink};
+    rad_filter_sink filtered = {j->reader, &filter, j->sink};
     if (used == count && j->input)
-        return filter_list(j, j->input, &filtered);
+        return rad_job_filter_list(j, j->input, &filtered);
     if (used == count)
         report_warning(report, j->context->parent, "xform: no file, and nothing on standard input");
     for (; used < count && !status; ++used)
-        status = filter_file(j, words[used], expand, &filtered);
+        status = rad_job_filter_file(j, words[used], expand, &filtered);
     return status;
 }
 
-static graze_status run(job *j, const char *const *words, int count, int depth);
+static graze_status run(rad_job *j, const char *const *words, int count, int depth);
 
 static int find_word(const char *const *words, int count, const char *wanted) {
     for (int i = 1; i < count; ++i)
@@ -305,7 +158,7 @@ static long all_instances(const char *const *words, int count) {
 }
 
 /* `-a n transforms`: the command with `-i 0`, `-i 1` ... `-i n-1` in its place. */
-static graze_status run_array(job *j, const char *const *words, int count, int at, int depth) {
+static graze_status run_array(rad_job *j, const char *const *words, int count, int at, int depth) {
     int n = at + 1 < count ? array_count(words[at + 1]) : 0;
     if (n == 0)
         return report_error(j->reader->report, j->context->parent, "xform: missing count for -a option");
@@ -333,7 +186,7 @@ static graze_status run_array(job *j, const char *const *words, int count, int a
 }
 
 /* Splits one line of an argument file into words behind words[*count]. */
-static graze_status split_line(const job *j, const char *line, size_t length, const char **words, int *count) {
+static graze_status split_line(const rad_job *j, const char *line, size_t length, const char **words, int *count) {
     if (*line == '!') {
         ++line;
         --length;
@@ -364,7 +217,7 @@ static graze_status split_line(const job *j, const char *line, size_t length, co
 }
 
 /* `-f file`: the command with each line of the file in its place, in turn. */
-static graze_status run_line(job *j, const char *const *words, int count, int at, const rad_word *line, int number,
+static graze_status run_line(rad_job *j, const char *const *words, int count, int at, const rad_word *line, int number,
                              int depth) {
     arena *memory = j->reader->memory;
     size_t most = (size_t)count + line->length / 2 + 4;
@@ -387,7 +240,7 @@ static graze_status run_line(job *j, const char *const *words, int count, int at
 }
 
 /* The command for each line of an argument file, which messages call `name`. */
-static graze_status run_lines(job *j, const char *const *words, int count, int at, const whole_file *text,
+static graze_status run_lines(rad_job *j, const char *const *words, int count, int at, const whole_file *text,
                               const char *name, int depth) {
     const graze_report *report = j->reader->report;
     graze_status status = GRAZE_OK;
@@ -410,7 +263,7 @@ static graze_status run_lines(job *j, const char *const *words, int count, int a
     return status;
 }
 
-static graze_status run_file(job *j, const char *const *words, int count, int at, int depth) {
+static graze_status run_file(rad_job *j, const char *const *words, int count, int at, int depth) {
     const graze_report *report = j->reader->report;
     static const whole_file nothing = {"", 0};
     if (at + 1 < count && !strcmp(words[at + 1], "-"))
@@ -429,7 +282,7 @@ static graze_status run_file(job *j, const char *const *words, int count, int at
     return status;
 }
 
-static graze_status run(job *j, const char *const *words, int count, int depth) {
+static graze_status run(rad_job *j, const char *const *words, int count, int depth) {
     enum { DEPTH_MOST = 64 };
     int file = find_word(words, count, "-f"), array = find_word(words, count, "-a");
     if (!file && !array)
@@ -440,43 +293,43 @@ static graze_status run(job *j, const char *const *words, int count, int depth) 
     return file ? run_file(j, words, count, file, depth) : run_array(j, words, count, array, depth);
 }
 
-static graze_status run_stage(job j, const rad_stage *stage) {
+static graze_status run_stage(rad_job j, const rad_stage *stage) {
     j.once = !find_word(stage->words, stage->count, "-f") && !find_word(stage->words, stage->count, "-a");
     graze_status status = run(&j, stage->words, stage->count, 0);
-    for (int i = 0; i < KEPT_FILES; ++i)
-        list_free(&j.files[i].primitives);
+    for (int i = 0; i < RAD_KEPT_FILES; ++i)
+        rad_list_free(&j.files[i].primitives);
     return status;
 }
 
 graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, const rad_context *context,
                            const place *command, const rad_sink *sink) {
-    list passed[2] = {{0}, {0}}; /* from one stage to the next, in turn */
-    list *input = NULL;
+    rad_list passed[2] = {{0}, {0}}; /* from one stage to the next, in turn */
+    rad_list *input = NULL;
     whole_file options = {NULL, 0};
     graze_status status = GRAZE_OK;
     if (pipeline->front && pipeline->front_is_options) {
         status = rad_command_output(&options, pipeline->front, context->directory, context->parent, reader->report);
     } else if (pipeline->front) {
         input = &passed[1];
-        list_sink kept = {reader, input};
-        status = rad_reader_shell(reader, pipeline->front, context, &(rad_sink){append, &kept});
+        rad_list_sink kept = {reader, input};
+        status = rad_reader_shell(reader, pipeline->front, context, &(rad_sink){rad_list_append, &kept});
     }
     for (int i = 0; i < pipeline->stage_count && !status; ++i) {
-        list *output = &passed[i % 2];
-        list_sink kept = {reader, output};
+        rad_list *output = &passed[i % 2];
+        rad_list_sink kept = {reader, output};
         bool last = i == pipeline->stage_count - 1;
         output->count = 0;
-        const job j = {.reader = reader,
-                       .context = context,
-                       .command = command,
-                       .sink = last ? sink : &(rad_sink){append, &kept},
-                       .input = input,
-                       .options = i == 0 && options.bytes ? &options : NULL};
+        const rad_job j = {.reader = reader,
+                           .context = context,
+                           .command = command,
+                           .sink = last ? sink : &(rad_sink){rad_list_append, &kept},
+                           .input = input,
+                           .options = i == 0 && options.bytes ? &options : NULL};
         status = run_stage(j, &pipeline->stages[i]);
         input = output;
     }
-    list_free(&passed[0]);
-    list_free(&passed[1]);
+    rad_list_free(&passed[0]);
+    rad_list_free(&passed[1]);
     free(options.bytes);
     return status;
 }

@@ -3,14 +3,6 @@
 
 #include "scene/builder.h"
 
-/* The latest modifier of that name before the primitive, or RAD_VOID. */
-static int find_before(const graze_scene *scene, const rad_primitive *p, const char *name) {
-    for (const rad_primitive *q = p; q-- > scene->primitives;)
-        if (!rad_type_is_surface(q->type) && !strcmp(q->id, name))
-            return (int)(q - scene->primitives);
-    return RAD_VOID;
-}
-
 int scene_nothing(scene_builder *b) {
     graze_scene *scene = b->scene;
     if (b->nothing < 0) {
@@ -27,7 +19,7 @@ graze_status scene_read_alternate(scene_builder *b, const rad_primitive *p, int 
         *alternate = scene_nothing(b);
         return GRAZE_OK;
     }
-    int modifier = find_before(b->scene, p, name);
+    int modifier = rad_modifier_before(b->scene->primitives, p, name);
     if (modifier == RAD_VOID)
         return rad_primitive_error(b->report, p, "there is no modifier '%.64s' before it", name);
     *alternate = scene_material_of_modifier(b, modifier);

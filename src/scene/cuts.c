@@ -1,12 +1,12 @@
-/* Whether a point is inside of a body is told by how often the ray that comes there has entered it more than left it,
+/* Surfaces that antimatter has cut away, and the faces that it closes what it cuts with.
+ *
+ * Whether a point is inside of a body is told by how often the ray that comes there has entered it more than left it,
  * which is found by following it back: what is open on the far side, such as a floor, is then a body, too, as in
  * Radiance. */
 #include "scene/cuts.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "scene/builder.h"
 
 /* As many materials of antimatter may a scene have: a bit for each. */
 enum { MOST = 64 };
@@ -26,12 +26,10 @@ static uint64_t bit(int antimatter) {
 
 /* The modifier of that name, the latest before the primitive; it is warned of where there is none. */
 static int listed(const graze_scene *scene, const rad_primitive *p, const char *name, const graze_report *report) {
-    for (const rad_primitive *q = p; q-- > scene->primitives;)
-        if (!rad_type_is_surface(q->type) && !strcmp(q->id, name))
-            return (int)(q - scene->primitives);
-    if (strcmp(name, "void"))
+    int modifier = rad_modifier_before(scene->primitives, p, name);
+    if (modifier == RAD_VOID && strcmp(name, "void"))
         rad_primitive_warning(report, p, "there is no modifier '%.64s' before it, which it could cut", name);
-    return RAD_VOID;
+    return modifier;
 }
 
 /* Notes what one antimatter cuts. */

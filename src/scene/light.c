@@ -1,7 +1,6 @@
 /* Lights as points see them, and sampling them. */
 #include "scene/light.h"
 
-#include "base/angle.h"
 #include "geometry/solid_angle.h"
 #include "scene/source_table.h"
 

@@ -1,4 +1,6 @@
-/* A ray is inside of a mist where it leaves it ahead more often than it enters it: so nothing need be known of how it
+/* Reading mists, and walking through them.
+ *
+ * A ray is inside of a mist where it leaves it ahead more often than it enters it: so nothing need be known of how it
  * came there. */
 #include "scene/mist.h"
 

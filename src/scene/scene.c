@@ -9,7 +9,6 @@
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
 #include "scene/cuts.h"
-#include "scene/emitter.h"
 #include "scene/light_pattern.h"
 #include "scene/mist.h"
 #include "scene/model_choice.h"

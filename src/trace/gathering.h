@@ -21,7 +21,7 @@ typedef struct vertex {
     material_reflection_point function_point;
     rgb function_color; /* to multiply its values by, on the viewer's side */
     bool leans;         /* the normal of `shading` is not the surface's own */
-    bool drawn;         /* which material of a mixture the surface has here was drawn at random */
+    bool drawn;         /* some of what the surface is here, as which of two materials, was drawn at random */
     bool no_ambient;    /* diffuse light from surfaces is not followed here (-ae, -ai) */
     bool behind;        /* the viewer is behind the surface */
     double distance;    /* that the path came from */
@@ -30,7 +30,7 @@ typedef struct vertex {
     rgb transmitted_function; /* to multiply the function's values by */
     bool transmitted_gloss_is_ambient;
     bool refracts; /* what TRANSMITTED lets through no light sample finds */
-    rgb beyond;    /* transmittance of a unit of length there, if it refracts */
+    rgb beyond;    /* transmittance of a unit of length there; set where the scene refracts */
 } vertex;
 
 /* Probabilities of going on with each lobe of one side; they sum to at most 1. Where a lobe `ends`, the ray only looks

@@ -1,19 +1,18 @@
-/* Cells of irradiance: from pilot paths' ends to averages, found by hashing. */
+/* Cells of irradiance: made where pilot paths end, found by hashing. */
 #include "trace/irradiance_cache.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "base/angle.h"
-#include "base/even_steps.h"
 #include "base/parallel.h"
 #include "base/report.h"
 #include "scene/surface.h"
+#include "trace/irradiance_cell.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
 
-enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 };
+enum { PATHS_PER_PILOT = 16 };
 
 /* A cell's edge is at most this part of the distance that a path comes from, at an error of 0.03 and more; of smaller
  * errors, a smaller one, so that what cells get wrong by being as large as they are stays small beside them: about a
@@ -24,40 +23,14 @@ enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 
 /* Fewer pilot paths make no cell. */
 #define FEWEST_POINTS 4
 
-/* Paths from their ends tell a cell's irradiance: so many that its own noise, which is averaged over all cells that a
- * pixel sees, is this many times the error asked for, of its value or of the floor, and within these bounds. */
-#define NOISE_OF_ERROR 5.0
-#define FEWEST_PATHS   16
-#define MOST_PATHS     1024
-/* A cell that more pilot paths have come to than this is seen by more of the picture, whose mean has its noise: that is
- * the less, as the root of their number is the more. Such a cell may have so many paths for each of them. */
-#define OFTEN_SEEN     16.0
-#define PATHS_OF_PILOT 4
-/* Where they have found less than the floor there may be more than they have found: the less, the more of them. */
-#define PATHS_BELIEVED 128
-
 /* Of what is in no cell. */
 #define NO_KEY UINT64_MAX
 /* Coordinates in edges of cells beyond which these cannot be told apart. */
 #define LARGEST_PLACE 0x1p50
 
-typedef struct cell {
-    uint64_t key;
-    size_t first, count; /* among the sorted records */
-    bool whole;          /* all are in one place */
-    rgb irradiance[CELL_PARTS];
-} cell;
-
-/* What a path has come to, by cell. */
-typedef struct keyed_record {
-    uint64_t key;
-    size_t order;
-    irradiance_record record;
-} keyed_record;
-
 typedef struct half_cache {
     vec3 offset; /* of the grid, in edges of cells */
-    cell *cells;
+    irradiance_cell *cells;
     size_t cell_count;
     uint32_t *table; /* a cell's index + 1, or 0; by key */
     size_t table_mask;
@@ -66,7 +39,7 @@ typedef struct half_cache {
 struct irradiance_cache {
     const graze_scene *scene;
     double part; /* of the distance, that a cell's edge is */
-    half_cache halves[CACHES];
+    half_cache halves[IRRADIANCE_CACHES];
 };
 
 static uint64_t mixed(uint64_t a, uint64_t b) {
@@ -82,18 +55,11 @@ static uint64_t normal_bin(vec3 n) {
     return axis << 3 | signs;
 }
 
-/* A power of 2. */
-static double cell_edge(const irradiance_cache *cache, double distance) {
-    int exponent;
-    (void)frexp(cache->part * distance, &exponent);
-    return ldexp(0.5, exponent);
-}
-
 /* The cell about a point: of a polygon that is large enough to fill it, or of all else that faces the same way, since
  * a mesh's triangles and a curved surface's parts are each too small to be met often. What is not lit alike for being
  * on other things mostly is out of sight of each other, which makes no cell. */
 static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, const irradiance_record *record) {
-    double edge = cell_edge(cache, record->distance);
+    double edge = irradiance_cell_edge(cache->part, record->distance);
     vec3 at = vec3_add_scaled(half->offset, 1 / edge, record->point);
     if (!(vec3_max_abs(at) < LARGEST_PLACE))
         return NO_KEY;
@@ -107,7 +73,7 @@ static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, co
     return mixed(key, normal_bin(record->normal));
 }
 
-static const cell *cell_of(const half_cache *half, uint64_t key) {
+static const irradiance_cell *cell_of(const half_cache *half, uint64_t key) {
     for (size_t i = key & half->table_mask; half->table[i] != 0; i = (i + 1) & half->table_mask)
         if (half->cells[half->table[i] - 1].key == key)
             return &half->cells[half->table[i] - 1];
@@ -116,12 +82,12 @@ static const cell *cell_of(const half_cache *half, uint64_t key) {
 
 bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_record *record,
                            rgb found[IRRADIANCE_PARTS]) {
-    for (int i = 0; i < CACHES; i++) {
-        const cell *c = cell_of(&cache->halves[i], key_of(cache, &cache->halves[i], record));
+    for (int i = 0; i < IRRADIANCE_CACHES; i++) {
+        const irradiance_cell *c = cell_of(&cache->halves[i], key_of(cache, &cache->halves[i], record));
         if (!c)
             return false;
-        for (int k = 0; k < CELL_PARTS; k++)
-            found[i * CELL_PARTS + k] = c->irradiance[k];
+        for (int k = 0; k < IRRADIANCE_CELL_PARTS; k++)
+            found[i * IRRADIANCE_CELL_PARTS + k] = c->irradiance[k];
     }
     return true;
 }
@@ -133,7 +99,7 @@ typedef struct pilot {
     int half;
     irradiance_pilot *first;
     void *user;
-    keyed_record *records;
+    irradiance_end *records;
 } pilot;
 
 static void follow_pilot(void *user, size_t index, int worker) {
@@ -141,7 +107,7 @@ static void follow_pilot(void *user, size_t index, int worker) {
     pilot *p = user;
     path_hit first = p->first(p->user, index);
     for (size_t i = 0; i < PATHS_PER_PILOT; i++) {
-        keyed_record *r = &p->records[index * PATHS_PER_PILOT + i];
+        irradiance_end *r = &p->records[index * PATHS_PER_PILOT + i];
         path_context context = p->context;
         context.record = &r->record;
         r->order = index * PATHS_PER_PILOT + i;
@@ -155,124 +121,30 @@ static void follow_pilot(void *user, size_t index, int worker) {
 }
 
 static int compare_records(const void *a, const void *b) {
-    const keyed_record *p = a, *q = b;
+    const irradiance_end *p = a, *q = b;
     return p->key != q->key ? (p->key < q->key ? -1 : 1) : p->order < q->order ? -1 : p->order > q->order;
 }
 
-static void find_cells(half_cache *half, const keyed_record *records, size_t count) {
+static void find_cells(half_cache *half, const irradiance_end *records, size_t count) {
     for (size_t i = 0, end; i < count; i = end) {
         for (end = i; end < count && records[end].key == records[i].key; end++)
             ;
         if (records[i].key == NO_KEY || end - i < FEWEST_POINTS)
             continue;
-        half->cells[half->cell_count++] = (cell){.key = records[i].key, .first = i, .count = end - i};
+        half->cells[half->cell_count++] = (irradiance_cell){.key = records[i].key, .first = i, .count = end - i};
     }
 }
 
-/* Filling cells. */
-typedef struct filling {
-    path_context context;
-    const irradiance_cache *cache;
-    half_cache *half;
-    const keyed_record *records;
-    uint32_t number;
-} filling;
-
-/* Points are lifted by this part of a cell's edge to see each other. */
-#define LIFT 0.0625
-
-/* Whether nothing stands between the points that paths have come to: a wall that divides a cell keeps light from one
- * side that the other has. */
-static bool is_in_one_place(const filling *f, const cell *c) {
-    const irradiance_record *first = &f->records[c->first].record;
-    double lift = LIFT * cell_edge(f->cache, first->distance);
-    vec3 from = vec3_add_scaled(first->point, lift, first->normal);
-    for (size_t i = 1; i < c->count; i++) {
-        const irradiance_record *other = &f->records[c->first + i].record;
-        vec3 way = vec3_subtract(vec3_add_scaled(other->point, lift, other->normal), from);
-        geometry_ray ray = {.origin = from, .direction = vec3_safe_normalize(way), .far = vec3_length(way), .from = -1};
-        if (ray.far > 0 && geometry_occluded(f->context.scene->geometry, &ray, -1))
-            return false;
-    }
-    return true;
-}
-
-/* Half of a cell's paths, a sequence of its own; the other half decides how many they are (trace/estimate.h says why).
- * Parts are runs of equal length in it. */
-enum { HALVES = 2, HALF_PARTS = CELL_PARTS / HALVES };
-typedef struct half_cell {
-    uint64_t key;
-    size_t taken;
-    rgb sum[HALF_PARTS];
-    double brightness, squares; /* sums of all */
-} half_cell;
-
-/* Ends in the golden section's order: however many, they are evenly spread over all of a cell's. */
-static const irradiance_record *record_at(const filling *f, const cell *c, size_t number) {
-    size_t index = (size_t)(even_step((double)number, GOLDEN_SECTION) * (double)c->count);
-    return &f->records[c->first + (index < c->count ? index : 0)].record;
-}
-
-static void take_path(const filling *f, const irradiance_record *from, path_memory *memory, half_cell *h, int part) {
-    path_context context = f->context;
-    context.memory = memory;
-    sampler points = sampler_start(h->key, (uint32_t)h->taken++);
-    path_sample sample;
-    path_irradiance_at(&context, from, &points, &sample);
-    rgb value = sample.radiance;
-    for (int k = 0; k < sample.control_count; k++)
-        value = rgb_add(value, sample.controls[k].difference);
-    double brightness = rgb_brightness(value);
-    h->sum[part] = rgb_add(h->sum[part], value);
-    h->brightness += brightness;
-    h->squares += brightness * brightness;
-}
-
-static void take_until(const filling *f, const cell *c, path_memory *memory, half_cell halves[HALVES], int half,
-                       size_t goal) {
-    half_cell *h = &halves[half];
-    size_t first = h->taken, run = (goal - first) / HALF_PARTS;
-    for (size_t i = first; i < goal; i++)
-        take_path(f, record_at(f, c, i * HALVES + (size_t)half), memory, h, (int)((i - first) / run));
-}
-
-/* Whether so many paths of a half are enough, as the other finds. */
-static bool is_enough(const filling *f, const cell *c, const half_cell *judge, size_t taken) {
-    const graze_trace_settings *s = f->context.settings;
-    double count = (double)judge->taken, mean = judge->brightness / count, floor = PI * s->floor;
-    double variance = fmax(judge->squares - mean * judge->brightness, 0) / (count - 1);
-    double seen = fmin(sqrt(OFTEN_SEEN / (double)c->count), 1), all = (double)taken * HALVES;
-    double allowed = NOISE_OF_ERROR * s->error * seen * fmax(mean, floor);
-    if (all < PATHS_BELIEVED && all * mean < FEWEST_PATHS * floor)
-        return false;
-    return variance <= allowed * allowed * all;
-}
+/* The cells of a cache that are to be filled. */
+typedef struct unfilled {
+    irradiance_filling filling;
+    irradiance_cell *cells;
+} unfilled;
 
 static void fill_cell(void *user, size_t index, int worker) {
     (void)worker;
-    filling *f = user;
-    cell *c = &f->half->cells[index];
-    c->whole = is_in_one_place(f, c);
-    if (!c->whole)
-        return;
-    path_memory memory;
-    path_memory_begin(&memory, false);
-    half_cell halves[HALVES] = {{.taken = 0}, {.taken = 0}};
-    for (int i = 0; i < HALVES; i++)
-        halves[i].key = sampler_key(f->context.settings->seed, c->key, 0x2000000u + f->number * HALVES + (uint32_t)i);
-    bool enough[HALVES] = {false, false};
-    size_t most = PATHS_OF_PILOT * c->count > MOST_PATHS ? PATHS_OF_PILOT * c->count : MOST_PATHS;
-    for (size_t goal = FEWEST_PATHS / HALVES; goal <= most / HALVES && !(enough[0] && enough[1]); goal *= 2) {
-        for (int i = 0; i < HALVES; i++)
-            if (!enough[i])
-                take_until(f, c, &memory, halves, i, goal);
-        for (int i = 0; i < HALVES; i++)
-            enough[i] = enough[i] || is_enough(f, c, &halves[1 - i], halves[i].taken);
-    }
-    for (int k = 0; k < CELL_PARTS; k++) {
-        const half_cell *h = &halves[k / HALF_PARTS];
-        c->irradiance[k] = rgb_scale((double)HALF_PARTS / (double)h->taken, h->sum[k % HALF_PARTS]);
-    }
+    const unfilled *u = user;
+    irradiance_cell_fill(&u->filling, &u->cells[index]);
 }
 
 static bool make_table(half_cache *half) {
@@ -308,8 +180,8 @@ static bool build_half(pilot *p, size_t count, int threads) {
         parallel_for(threads, count, follow_pilot, p);
         qsort(p->records, records, sizeof *p->records, compare_records);
         find_cells(half, p->records, records);
-        filling f = {p->context, p->cache, half, p->records, (uint32_t)p->half};
-        parallel_for(threads, half->cell_count, fill_cell, &f);
+        unfilled u = {{&p->context, p->cache->part, p->records, (uint32_t)p->half}, half->cells};
+        parallel_for(threads, half->cell_count, fill_cell, &u);
         ok = make_table(half);
     }
     free(p->records);
@@ -334,7 +206,7 @@ graze_status irradiance_cache_build(irradiance_cache **out, const path_context *
         return report_out_of_memory(report);
     cache->scene = context->scene;
     cache->part = fmin(LARGEST_PART, PART_OF_ERROR * context->settings->error);
-    for (int i = 0; i < CACHES; i++) {
+    for (int i = 0; i < IRRADIANCE_CACHES; i++) {
         pilot p = {.context = {.scene = context->scene, .settings = context->settings},
                    .cache = cache,
                    .half = i,
@@ -350,7 +222,7 @@ graze_status irradiance_cache_build(irradiance_cache **out, const path_context *
 }
 
 void irradiance_cache_destroy(irradiance_cache *cache) {
-    for (int i = 0; cache && i < CACHES; i++) {
+    for (int i = 0; cache && i < IRRADIANCE_CACHES; i++) {
         free(cache->halves[i].cells);
         free(cache->halves[i].table);
     }

@@ -32,7 +32,7 @@ typedef path_hit irradiance_pilot(void *user, size_t index);
 
 /* Builds the cache for paths that have been reflected diffusely once. The context's own cache is not used. The result
  * does not depend on the number of threads. It is null where a cache is of no use: less than two diffuse reflections,
- * lights that are not sampled or are seen in mirrors, and a limited number of reflections. */
+ * lights that are not sampled or are seen in mirrors that are not faint, and a limited number of reflections. */
 graze_status irradiance_cache_build(irradiance_cache **, const path_context *, irradiance_pilot *, void *user,
                                     size_t count, int threads, const graze_report *);
 void irradiance_cache_destroy(irradiance_cache *);

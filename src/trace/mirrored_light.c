@@ -7,7 +7,6 @@
 #include "trace/mist.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
-#include "trace/vertex.h"
 
 /* Of more mirrors that show a vertex, one is chosen. */
 #define EVERY_MIRROR 4

@@ -2,7 +2,6 @@
 #include "trace/rare_gloss.h"
 
 #include "base/angle.h"
-#include "geometry/placed.h"
 #include "trace/context.h"
 #include "trace/mirrored_light.h"
 

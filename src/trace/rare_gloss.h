@@ -6,11 +6,12 @@
 
 #include "trace/path_state.h"
 
-/* How the vertex reflects lights in this way, if it does; of few lights on curved surfaces notes what is expected. */
+/* How the vertex reflects lights in this way, if it does. On curved surfaces, where lights are few, and in mirrors
+ * notes what is expected. */
 rare_gloss rare_gloss_at(path *, const vertex *);
 
-/* On flat surfaces, notes what is expected of a light that shines on the vertex by a sample of it; `expectation` is how
- * often the light is sampled on the average. */
+/* In the gloss of flat surfaces, notes what is expected of a light that shines on the vertex by a sample of it;
+ * `expectation` is how often the light is sampled on the average. */
 void rare_gloss_expect(path *, const vertex *, const light_sample *, double expectation);
 
 /* Notes what the gloss reflects of a light there, which has been sampled, or met by the path's last reflection. */

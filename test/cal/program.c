@@ -102,9 +102,6 @@ static void files_are_contexts_and_read_once(void **state) {
     assert_true(value_in(program, "a-b.cal", "three") == 3);
     assert_true(value_in(program, "a-b.cal", "s") == 1);
     assert_true(value_in(program, NULL, "x`one+x`a_b") == 3);
-    assert_true(cal_program_defines(program, "one.cal", "late"));
-    assert_true(cal_program_defines(program, "one.cal", "sqrt"));
-    assert_false(cal_program_defines(program, NULL, "late"));
 
     captured_begin(&c);
     assert_int_equal(cal_program_use_file(program, "none.cal", &finder, &where, &c.report), GRAZE_INPUT_ERROR);

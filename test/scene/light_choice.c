@@ -9,7 +9,6 @@
 
 #include <cmocka.h>
 
-#include "base/angle.h"
 #include "scene/light.h"
 #include "scene/light_choice.h"
 #include "support/scene_text.h"

@@ -2,7 +2,6 @@
 #include "tools/brdfeval/table_text.h"
 
 #include <stdio.h>
-#include <string.h>
 
 /* Calls name(...) with the name of each column: inputs, then numbers of the answer. */
 static void for_each_column(const evaluation *e, const grid *g, record_buffer *out,

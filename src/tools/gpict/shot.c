@@ -5,10 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/fingerprint.h"
 #include "picture/checkpoint.h"
 #include "scene/fingerprint.h"
-#include "tools/common/picture_header.h"
 #include "tools/gpict/files.h"
 #include "tools/gpict/watch.h"
 
