@@ -119,7 +119,7 @@ static void find_extent(const geometry *g, geometry_tree *tree, box all) {
 /* Finds the extent of all, and how many triangles and curved surfaces there are. */
 static bool find_bounds(const geometry *g, survey *s, int threads) {
     geometry_tree *tree = s->tree;
-    tree->reach = malloc((tree->shape_count + 1) * sizeof *tree->reach);
+    tree->reach = large_memory_unset((tree->shape_count + 1) * sizeof *tree->reach);
     tree->placed = malloc((tree->placement_count + 1) * sizeof *tree->placed);
     s->count = (tree->shape_count + BLOCK_SIZE - 1) / BLOCK_SIZE;
     s->blocks = malloc((s->count + 1) * sizeof *s->blocks);
