@@ -11,10 +11,10 @@
 #define LARGE_PAGE ((size_t)1 << 21)
 #define CACHE_LINE ((size_t)64)
 
-void *large_memory(size_t count, size_t size) {
-    if (size > 0 && count > (PTRDIFF_MAX - LARGE_PAGE) / size)
+void *large_memory_unset(size_t bytes) {
+    if (bytes > PTRDIFF_MAX - LARGE_PAGE)
         return NULL;
-    size_t bytes = count * size, unit = bytes >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
+    size_t unit = bytes >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
     bytes = bytes > 0 ? (bytes + unit - 1) / unit * unit : unit;
     void *memory = aligned_alloc(unit, bytes);
     if (!memory)
@@ -23,5 +23,12 @@ void *large_memory(size_t count, size_t size) {
     if (unit == LARGE_PAGE)
         (void)madvise(memory, bytes, MADV_HUGEPAGE); /* only advice: nothing is lost where it is not taken */
 #endif
-    return memset(memory, 0, bytes);
+    return memory;
+}
+
+void *large_memory(size_t count, size_t size) {
+    if (size > 0 && count > PTRDIFF_MAX / size)
+        return NULL;
+    void *memory = large_memory_unset(count * size);
+    return memory ? memset(memory, 0, count * size) : NULL;
 }

@@ -21,7 +21,7 @@ static bool number_surfaces(const geometry *g, geometry_tree *tree) {
 }
 
 static bool allocate_surfaces(geometry_tree *tree) {
-    tree->triangles = large_memory(tree->triangle_count + 1, sizeof *tree->triangles);
+    tree->triangles = large_memory_unset((tree->triangle_count + 1) * sizeof *tree->triangles);
     tree->curved = malloc((tree->curved_count + 1) * sizeof *tree->curved);
     return tree->triangles && tree->curved;
 }

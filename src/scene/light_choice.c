@@ -95,10 +95,6 @@ void light_choice_none(light_choice *choice) {
     choice->root.candidates = 0;
 }
 
-bool light_choice_is_possible(const light_choice *choice) {
-    return choice->root.candidates > 0;
-}
-
 double light_expectation(const light_choice *choice, int light) {
     const light_tree *tree = choice->tree;
     if (!light_choice_is_possible(choice) || tree->group_of[light] < 0)

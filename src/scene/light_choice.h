@@ -35,7 +35,9 @@ void light_choice_none(light_choice *);
 bool light_choice_is_above(const graze_scene *, int light, vec3 point, vec3 normal);
 
 /* Whether any light could reach the point. */
-bool light_choice_is_possible(const light_choice *);
+static inline bool light_choice_is_possible(const light_choice *choice) {
+    return choice->root.candidates > 0;
+}
 
 /* Whether every light is to be sampled, rather than some that light_choose chooses. */
 static inline bool light_choice_is_every_one(const light_choice *choice) {

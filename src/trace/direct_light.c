@@ -84,21 +84,26 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
     light_choice_prepare(&beyond->lights, p->context->scene, &receiver);
 }
 
-/* Whether nothing stands between a vertex and a light's sampled point, but for panes, which leave some of its light. */
+/* What panes and mist leave of a light sample's light; black where something else is on its way. */
+__attribute__((noinline)) static rgb light_let_through(const path *p, const geometry_ray *ray,
+                                                       const light_sample *sample) {
+    const graze_scene *scene = p->context->scene;
+    const scene_light *light = &scene->lights[sample->light];
+    rgb left = panes_transmittance(p->context, ray, p->length, light->surface, light_is_proper(scene, sample->light));
+    if (!p->in_mist || rgb_is_black(left))
+        return left;
+    bool direct = light_role_at(light, sample->distance) == LIGHT_DIRECT;
+    return rgb_multiply(mist_transmittance(p->context, ray->origin, ray->direction, ray->far, direct), left);
+}
+
+/* Whether nothing stands between a vertex and a light's sampled point, but for what leaves some of its light. */
 static bool light_is_visible(const path *p, const vertex *v, const light_sample *sample, rgb *light) {
     const graze_scene *scene = p->context->scene;
-    int target = scene->lights[sample->light].surface;
     geometry_ray ray = {
         .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
-    if (mist_is_there(p->context)) {
-        bool direct = light_role_at(&scene->lights[sample->light], sample->distance) == LIGHT_DIRECT;
-        *light =
-            rgb_multiply(mist_transmittance(p->context, v->point, sample->direction, sample->distance, direct), *light);
-    }
-    if (!scene->has_panes)
-        return !geometry_occluded(scene->geometry, &ray, target);
-    *light = rgb_multiply(
-        panes_transmittance(p->context, &ray, p->length, target, light_is_proper(scene, sample->light)), *light);
+    if (!p->hindered)
+        return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
+    *light = light_let_through(p, &ray, sample);
     return !rgb_is_black(*light);
 }
 

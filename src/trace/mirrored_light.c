@@ -94,7 +94,7 @@ static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror
     rgb before = panes_transmittance(p->context, &first, p->length, mirror, true);
     if (!(left > 0) || rgb_is_black(before))
         return rgb_gray(0);
-    if (mist_is_there(p->context)) {
+    if (p->in_mist) {
         bool direct = light_role_at(&scene->lights[sample->light], sample->distance) == LIGHT_DIRECT;
         before = rgb_multiply(before, mist_transmittance(p->context, v->point, sample->direction, to_mirror, direct));
         before = rgb_multiply(before, mist_transmittance(p->context, at, onward, left, direct));

@@ -39,12 +39,12 @@ static bool reflects_plainly(const vertex *v) {
 }
 
 /* Takes what the cache tells of the point that a diffuse reflection has led to, or notes the record that is asked for.
- * What the surface reflects specularly is left of the vertex. True: nothing is, and the path ends. */
+ * What the surface reflects specularly is left of the vertex. True: nothing is, and the path ends. There must be one of
+ * both. */
 static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     const path_context *context = p->context;
-    bool wanted = context->cache || context->record;
-    if (!wanted || p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 ||
-        context->settings->ambient_bounces < 2 || !reflects_plainly(v))
+    if (p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 || context->settings->ambient_bounces < 2 ||
+        !reflects_plainly(v))
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[IRRADIANCE_PARTS];
@@ -137,19 +137,26 @@ static void gather_below(path *p, const vertex *v, const other_side *beyond) {
     p->known = above;
 }
 
+/* What the way to a hit leaves of the light; apart from what all scenes need, which is faster without it. */
+__attribute__((noinline)) static void hinder(path *p, vec3 point, const path_hit *hit) {
+    if (p->context->scene->has_refraction)
+        attenuate(p, hit);
+    if (p->in_mist)
+        mist_follow(p, point, hit->direction, hit->distance);
+}
+
 /* Goes to what the ray from a point meets, after the reflection at the vertex there, or a branch's. False: the path
  * ends there. */
-static bool arrive(path *p, vec3 point, int64_t surface, const vertex *v, vec3 direction, gathering *next) {
+static inline __attribute__((always_inline)) bool arrive(path *p, vec3 point, int64_t surface, const vertex *v,
+                                                         vec3 direction, gathering *next) {
     const path_context *context = p->context;
     path_hit hit = path_cast(context, point, direction, GEOMETRY_FAR, surface);
-    if (context->scene->has_refraction)
-        attenuate(p, &hit);
-    if (mist_is_there(context))
-        mist_follow(p, point, direction, hit.distance);
+    if (p->hindered)
+        hinder(p, point, &hit);
     rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);
     p->radiance = rgb_add(p->radiance, found);
     observe_ray(p, point, &hit, found);
-    if (context->scene->has_secondary)
+    if (p->hindered && context->scene->has_secondary)
         emission_pass_secondary(p, &hit);
     if (p->last.first && !(p->gathering && p->last.refracted))
         p->direct = p->radiance;
@@ -158,21 +165,26 @@ static bool arrive(path *p, vec3 point, int64_t surface, const vertex *v, vec3 d
     if (v && (p->known.controls | p->known.watched))
         known_light_subtract_reflected(p, v, &hit, found);
     next->decided = false;
-    if (!vertex_at_hit(p, &hit, &next->vertex) || take_from_cache(p, &hit, &next->vertex))
+    if (!vertex_at_hit(p, &hit, &next->vertex))
+        return false;
+    if ((context->cache || context->record) && take_from_cache(p, &hit, &next->vertex))
         return false;
     p->length += hit.distance;
     return true;
 }
 
+__attribute__((noinline)) static bool arrive_by_branch(path *p, const path_branch *b, gathering *next) {
+    return arrive(p, b->point, b->surface, NULL, b->direction, next);
+}
+
 /* Gathers light at a vertex and goes on from there until the path ends: from where a branch begins, if there is one. */
 static void walk(path *p, gathering *here, const path_branch *branch, path_branches *branches) {
     const path_context *context = p->context;
-    const bool mist = mist_is_there(context);
     gathering later[2]; /* one of them has seen the lights that the last scattering refers to */
     other_side others[2];
     if (branch) {
         here = &later[0];
-        if (!arrive(p, branch->point, branch->surface, NULL, branch->direction, here))
+        if (!arrive_by_branch(p, branch, here))
             return;
     }
     for (;;) {
@@ -193,7 +205,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
         p->known.controls = p->known.settled = p->known.watched = 0;
         p->gloss = rare_gloss_at(p, v);
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
-            if (!context->observer && !mist)
+            if (!context->observer && !p->in_mist)
                 known_light_add(p, v, &here->lights);
             direct_light_add(p, v, &here->lights, &here->lobes);
         }
@@ -201,11 +213,11 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
             gather_below(p, v, beyond);
         if (context->scene->mirror_count > 0 && !context->record)
             mirrored_light_add(p, v, &here->lobes);
-        if (!p->scattered)
+        if (here->lobes.specular_splits || (transmits && beyond->lobes.specular_splits))
             lobes_split(p, v, &here->lobes, transmits ? &beyond->lobes : NULL, branches);
         const bool ends = !transmits && !lobes_may_reflect(&here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
-        if (!ends && !context->observer && !mist && !decided && known_light_is_all(p, v, &here->lights))
+        if (!ends && !context->observer && !p->in_mist && !decided && known_light_is_all(p, v, &here->lights))
             return;
         here->decided = !v->drawn;
         if (ends)
@@ -265,6 +277,9 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->context = context;
     p->sampler = points;
     p->first_group = points->group;
+    const graze_scene *scene = context->scene;
+    p->in_mist = mist_is_there(context);
+    p->hindered = p->in_mist || scene->has_panes || scene->has_refraction || scene->has_secondary;
     p->branches = 0;
     p->noisy = false;
     p->length = 0;
@@ -330,7 +345,7 @@ void path_radiance(const path_context *context, const path_hit *first, sampler *
         beyond = panes_look_through(context, first);
         first = &beyond;
     }
-    if (mist_is_there(context))
+    if (p.in_mist)
         follow_first(&p, first);
     if (first->light >= 0 && context->settings->part != GRAZE_MIRRORED)
         p.radiance = rgb_add(p.radiance, emission_found(&p, first));

@@ -74,6 +74,8 @@ typedef struct path {
     int ambient_limit;   /* how many there may be at this vertex */
     int depth;           /* all reflections so far */
     int passages;        /* how often it has been let through, straight on or refracted */
+    bool in_mist;        /* there is mist (trace/mist.h) */
+    bool hindered;       /* something may be on the way of light: mist, panes, clear bodies, or illums */
     rgb medium;          /* transmittance of a unit of length where the path is; set where the scene refracts */
     bool scattered;      /* whether any of them was not a mirror's */
     bool searching;      /* whether one may meet lights that no light sample finds */

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -32,9 +33,24 @@ static void too_much_is_none(void **state) {
     assert_null(large_memory(SIZE_MAX, 1));
     assert_null(large_memory(SIZE_MAX / 2, 3));
     assert_null(large_memory((SIZE_MAX >> 1) / 64, 64));
+    assert_null(large_memory_unset(SIZE_MAX));
+    assert_null(large_memory_unset(SIZE_MAX >> 1));
+}
+
+static void what_is_not_zeroed_is_there(void **state) {
+    (void)state;
+    static const size_t sizes[] = {0, 1, 65, 1 << 21, (1 << 21) + 1};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        unsigned char *memory = large_memory_unset(sizes[i]);
+        assert_non_null(memory);
+        assert_int_equal((uintptr_t)memory % 64, 0);
+        memset(memory, 1, sizes[i]);
+        free(memory);
+    }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(is_zeroed_and_aligned), cmocka_unit_test(too_much_is_none)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(is_zeroed_and_aligned), cmocka_unit_test(too_much_is_none),
+                                       cmocka_unit_test(what_is_not_zeroed_is_there)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
