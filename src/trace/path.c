@@ -169,7 +169,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
     const path_context *context = p->context;
     const bool mist = mist_is_there(context);
     gathering later[2]; /* one of them has seen the lights that the last scattering refers to */
-    other_side others[2];
+    other_side others[2], *beyond = others;
     if (branch) {
         here = &later[0];
         if (!arrive(p, branch->point, branch->surface, NULL, branch->direction, here))
@@ -178,7 +178,8 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
     for (;;) {
         vertex *v = &here->vertex;
         const bool transmits = v->shading.transmits;
-        other_side *beyond = &others[transmits && p->last.lights == &others[0].lights];
+        if (transmits && p->last.lights == &beyond->lights)
+            beyond = beyond == others ? others + 1 : others;
         p->ambient_limit = v->no_ambient ? 0 : context->settings->ambient_bounces;
         bool decided = here->decided;
         if (!path_bounces_left(p))
