@@ -208,7 +208,10 @@ static void what_is_unphysical_is_told(void **state) {
         "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .5 .5 .5 .1 .1 .1 .6 .1 .1",
         "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .1 .1 .1 .5 .5 .5 .1 .1 .6",
         "void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 .5 .5 .5 .1 .1 .1 .6 .1 .1",
+        "void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 .1 .1 .1 .5 .5 .5 .1 .1 .6",
         "void transfunc m 2 max . 0 6 1.8 .4 .2 .25 .6 .5",
+        "void transfunc m 2 max . 0 6 .8 1.4 .2 .25 .6 .5",
+        "void transfunc m 2 max . 0 6 .8 .4 1.2 .25 .6 .5",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         setting s = compiled(texts[i]);
@@ -295,6 +298,23 @@ static void what_is_left_of_wgmdfunc(void **state) {
     setting_end(&s);
 }
 
+/* Nothing comes through where there is no such part, and none is prepared. */
+static void parts_that_are_not_there(void **state) {
+    (void)state;
+    setting s = compiled("void WGMDfunc m 13 inherit .1 .1 .1 inherit 0 .1 .1 lost 1 0 0 . 0 9 .1 .2 .3 0 0 0 0 0 0");
+    const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, -0.8));
+    graze_surface parts[WGMD_PARTS] = {{.transmits = 7}, {.transmits = 7}, {.transmits = 7}, {.transmits = 7}};
+    assert_true(s.wgmd->has[WGMD_SPECULAR] && s.wgmd->inherits[WGMD_SPECULAR] && !s.wgmd->may_mirror);
+    assert_false(s.wgmd->has[WGMD_THROUGH] || s.wgmd->has[WGMD_THROUGH_DIFFUSE] || s.wgmd->may_be_clear);
+    material_wgmd_prepare(s.wgmd, &at, parts);
+    assert_int_equal(parts[WGMD_DIFFUSE].transmits, 0);
+    assert_int_equal(parts[WGMD_SPECULAR].transmits, 0);
+    assert_int_equal(parts[WGMD_THROUGH].transmits, 7);
+    assert_int_equal(parts[WGMD_THROUGH_DIFFUSE].transmits, 7);
+    assert_color(material_wgmd_through(s.wgmd, &at), 0, 0, 0);
+    setting_end(&s);
+}
+
 /* A weak mirror has no Fresnel's estimate and takes nothing from what else there is; one that is next to nothing, or
  * that no value can be computed of, is none. So are roughnesses next to nothing. */
 static void what_is_weak_in_wgmdfunc(void **state) {
@@ -334,15 +354,11 @@ static void what_is_weak_in_wgmdfunc(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_transfunc_divides),
-        cmocka_unit_test(what_brtdfunc_divides),
-        cmocka_unit_test(what_functions_see),
-        cmocka_unit_test(arguments_are_checked),
-        cmocka_unit_test(what_is_unphysical_is_told),
-        cmocka_unit_test(what_wgmdfunc_transmits),
-        cmocka_unit_test(what_data_tell),
-        cmocka_unit_test(what_is_left_of_wgmdfunc),
-        cmocka_unit_test(what_is_weak_in_wgmdfunc),
+        cmocka_unit_test(what_transfunc_divides),     cmocka_unit_test(what_brtdfunc_divides),
+        cmocka_unit_test(what_functions_see),         cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(what_is_unphysical_is_told), cmocka_unit_test(what_wgmdfunc_transmits),
+        cmocka_unit_test(parts_that_are_not_there),   cmocka_unit_test(what_data_tell),
+        cmocka_unit_test(what_is_left_of_wgmdfunc),   cmocka_unit_test(what_is_weak_in_wgmdfunc),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
