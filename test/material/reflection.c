@@ -196,6 +196,10 @@ static void arguments_are_checked(void **state) {
     assert_refused("void BRTDfunc m 10 0 0 0 q 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 -1 0",
                    "real argument 8 is negative");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 -1 0 0 0 0 0 0 0 0",
+                   "real argument 1 is negative");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 -1",
+                   "real argument 9 is negative");
     assert_refused("void WGMDfunc m 13 void 0 0 0 lost .1 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 0",
                    "there is no modifier 'lost' before it");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 lost 1 0 0 . 0 9 0 0 0 0 0 0 0 0 1",
@@ -260,6 +264,9 @@ static void what_wgmdfunc_transmits(void **state) {
     setting_end(&s);
 }
 
+/* e^-5.85, as Radiance rounds it in its estimate. */
+#define ROUNDED 0.00287989916
+
 /* A point of a WGMDfunc without patterns or textures, seen from this direction. */
 static material_wgmd_point wgmd_point_from(vec3 direction) {
     const double side = direction.z < 0 ? 1 : -1;
@@ -279,10 +286,10 @@ static void what_is_left_of_wgmdfunc(void **state) {
     (void)state;
     static const vec3 directions[] = {{0.6, 0, -0.8}, {0.6, 0, 0.8}, {1, 0, -1e-7}};
     static const double cosines[] = {0.8, 0.8, 1e-3};
-    setting s = compiled("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
+    setting s = compiled("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .2 .3 .4 .5 .6 .3 .2 .1");
     for (int i = 0; i < 3; i++) {
         const material_wgmd_point at = wgmd_point_from(directions[i]);
-        const double left = 1 - (exp(-5.85 * cosines[i]) - exp(-5.85)), diffuse = i == 1 ? 0.2 : 0.1;
+        const double left = 1 - (exp(-5.85 * cosines[i]) - ROUNDED), more = i == 1 ? 0.3 : 0;
         graze_surface parts[WGMD_PARTS];
         material_wgmd_prepare(s.wgmd, &at, parts);
         graze_surface joined = parts[WGMD_DIFFUSE];
@@ -290,12 +297,34 @@ static void what_is_left_of_wgmdfunc(void **state) {
             material_wgmd_join(&joined, &parts[part]);
         assert_int_equal(joined.specular_lobe, GRAZE_LOBE_MIRROR);
         assert_true(joined.specular.g == parts[WGMD_SPECULAR].specular.g && joined.transmits && joined.fresnel);
-        assert_color(joined.diffuse, diffuse * left, diffuse * left, diffuse * left);
+        assert_color(joined.diffuse, (0.1 + more) * left, (0.2 + more) * left, (0.3 + more) * left);
         assert_color(joined.transmitted_diffuse, 0.3 * left, 0.2 * left, 0.1 * left);
         assert_color(joined.transmitted_specular, 0.4 * left, 0.4 * left, 0.4 * left);
         assert_color(material_wgmd_through(s.wgmd, &at), 0.4 * left, 0.4 * left, 0.4 * left);
     }
     setting_end(&s);
+}
+
+/* Functions see the surface's own normal and the part's on the viewer's side, from where the material is turned to. */
+static void what_functions_of_wgmdfunc_see(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "void WGMDfunc m 13 void RdotP/10 0 0 void -NzP*.4 Nz*.2 -Rdot*.25 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 0",
+        "void WGMDfunc m 15 void RdotP/10 0 0 void NzP*.4 -Nz*.2 -Rdot*.25 void 1 0 0 . -rx 180 0 9 0 0 0 0 0 0 0 0 0",
+    };
+    for (int i = 0; i < 2; i++) {
+        setting s = compiled(texts[i]);
+        const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, 0.8));
+        const double fresnel = exp(-5.85 * 0.8) - ROUNDED;
+        graze_surface parts[WGMD_PARTS];
+        material_wgmd_prepare(s.wgmd, &at, parts);
+        const double mirrored = 0.08 + 0.92 * fresnel, through = 0.4 * (1 - fresnel);
+        assert_color(parts[WGMD_SPECULAR].specular, mirrored, mirrored, mirrored);
+        assert_color(parts[WGMD_THROUGH].transmitted_specular, through, through, through);
+        assert_true(fabs(parts[WGMD_THROUGH].transmitted_u - 0.2) < 1e-12);
+        assert_true(fabs(parts[WGMD_THROUGH].transmitted_v - 0.2) < 1e-12);
+        setting_end(&s);
+    }
 }
 
 /* Nothing comes through where there is no such part, and none is prepared. */
@@ -354,11 +383,17 @@ static void what_is_weak_in_wgmdfunc(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_transfunc_divides),     cmocka_unit_test(what_brtdfunc_divides),
-        cmocka_unit_test(what_functions_see),         cmocka_unit_test(arguments_are_checked),
-        cmocka_unit_test(what_is_unphysical_is_told), cmocka_unit_test(what_wgmdfunc_transmits),
-        cmocka_unit_test(parts_that_are_not_there),   cmocka_unit_test(what_data_tell),
-        cmocka_unit_test(what_is_left_of_wgmdfunc),   cmocka_unit_test(what_is_weak_in_wgmdfunc),
+        cmocka_unit_test(what_transfunc_divides),
+        cmocka_unit_test(what_brtdfunc_divides),
+        cmocka_unit_test(what_functions_see),
+        cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(what_is_unphysical_is_told),
+        cmocka_unit_test(what_wgmdfunc_transmits),
+        cmocka_unit_test(what_functions_of_wgmdfunc_see),
+        cmocka_unit_test(parts_that_are_not_there),
+        cmocka_unit_test(what_data_tell),
+        cmocka_unit_test(what_is_left_of_wgmdfunc),
+        cmocka_unit_test(what_is_weak_in_wgmdfunc),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
