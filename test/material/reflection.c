@@ -162,6 +162,7 @@ static void what_data_tell(void **state) {
         snprintf(text, sizeof text, "void metdata m 4 %s %s %s g 0 4 .8 .4 .2 .25", cases[i].function, values.name,
                  file.name);
         setting s = compiled(text);
+        assert_string_equal(messages, "");
         rgb found = material_reflection_value(s.reflection, &at, vec3_make(cases[i].x, cases[i].y, cases[i].z));
         assert_color(found, cases[i].value, cases[i].value, cases[i].value);
         setting_end(&s);
