@@ -234,8 +234,7 @@ static void what_wgmdfunc_transmits(void **state) {
     setting s = compiled("void WGMDfunc m 13 lost 0 0 0 void .4 .2 .1 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
     const vec3 normal = {0, 0, 1}, direction = {0.6, 0, -0.8};
     material_wgmd_point at = {.ray = {.point = {0, 0, 0}, .direction = direction, .normal = normal},
-                              .model = GRAZE_BRDF_GMD,
-                              .straight_on = direction};
+                              .model = GRAZE_BRDF_GMD};
     for (int i = 0; i < WGMD_PARTS; i++) {
         at.normals[i] = normal;
         at.colors[i] = rgb_gray(1);
@@ -272,8 +271,7 @@ static void what_wgmdfunc_transmits(void **state) {
 static material_wgmd_point wgmd_point_from(vec3 direction) {
     const double side = direction.z < 0 ? 1 : -1;
     material_wgmd_point at = {.ray = {.point = {3, 4, 5}, .direction = direction, .normal = {0, 0, 1}},
-                              .model = GRAZE_BRDF_GMD,
-                              .straight_on = direction};
+                              .model = GRAZE_BRDF_GMD};
     for (int i = 0; i < WGMD_PARTS; i++) {
         at.normals[i] = vec3_make(0, 0, side);
         at.colors[i] = white;
