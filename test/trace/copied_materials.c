@@ -27,7 +27,8 @@ static const struct {
 } materials[] = {
     {"prism1", 5, ".5+.2*Px Dx+.1*Py Dy Dz .", "0 0"},
     {"prism2", 9, ".3 Dx Dy Dz .2+.1*Px Dx+.2 Dy+.1 Dz .", "0 0"},
-    {"BRTDfunc", 10, ".1+.1*Px .2 .1 .3+.2*Nz .2 .3+.1*Py max min max .", "0 9 .1 .2 .3 .3 .2 .1 .1 .05 .1"},
+    {"BRTDfunc", 10, ".1+.1*Px .2+.01*T .1 .3+.2*Nz .2+.1*NzP .3+.01*Ts max min max .",
+     "0 9 .1 .2 .3 .3 .2 .1 .1 .05 .1"},
     {"transfunc", 2, "max .", "0 6 .7 .6 .5 .2 .6 .7"},
     {"WGMDfunc", 13, "void .2+.1*Px .2 .1 void .3+.1*Py .2 .3 void 1 Px .5 .", "0 9 .1 .2 .3 .3 .2 .1 .1 .1 .1"},
     {"WGMDfunc", 13, "void .1+.1*Px 0 0 void .4+.1*NzP 0 0 void 1 Px .5 .", "0 9 .1 .2 .3 .3 .2 .1 .1 .1 .1"},
@@ -35,11 +36,11 @@ static const struct {
 
 static graze_answer answer_of(const char *things, vec3 eye) {
     char text[1200];
-    snprintf(
-        text, sizeof text,
-        "void glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 1 360 void light l 0 0 3 40 30 20 l sphere a 0 0 4 1 1 2 "
-        ".5 l sphere b 0 0 4 -2 5 1 .5 %s",
-        things);
+    snprintf(text, sizeof text,
+             "void colorfunc c 4 1+.9*Dx 1 1+.9*Dz . 0 0 c glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 1 360 void "
+             "light l 0 0 3 40 30 20 l sphere a 0 0 4 1 1 2 "
+             ".5 l sphere b 0 0 4 -2 5 1 .5 %s",
+             things);
     graze_scene *scene = scene_from_text(text);
     if (!scene)
         fail_msg("%s: %s", things, messages);
@@ -83,6 +84,7 @@ static void copies_are_as_what_is_written_there(void **state) {
                      materials[i].words + PLACED_WORDS, materials[i].strings, PLACED, materials[i].reals, placed_disk);
             graze_answer written = answer_of(text, eye);
             assert_same(text, copy.value.r, written.value.r, copy.standard_error.r, written.standard_error.r);
+            assert_same(text, copy.value.g, written.value.g, copy.standard_error.g, written.standard_error.g);
             assert_same(text, copy.value.b, written.value.b, copy.standard_error.b, written.standard_error.b);
         }
 }
