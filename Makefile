@@ -62,7 +62,8 @@ tests: $(TESTS)
 say = $(if $(V),,@echo '  $(1)';)
 
 # Everything compiled depends on this file, so that other flags or another compiler compile everything again; it changes
-# only when they do. The same for the list of sources, so that a library forgets a source that is gone.
+# only when they do. The same for the list of sources of each archive, each tool and the library, so that none keeps a source
+# that is gone or lacks one whose object was there before.
 quote = '$(subst ','\'',$(1))'
 define record_rule
 $(BUILD)/$(1): FORCE
@@ -75,7 +76,8 @@ $(eval $(call record_rule,sources,$$(SOURCES)))
 
 define folder_rules
 SOURCES_$(1) := $$(wildcard src/$(1)/*.c)
-$(call archive,$(1)): $$(SOURCES_$(1):src/%.c=$(BUILD)/obj/%.o) $(BUILD)/sources
+$(call record_rule,lib$(1).sources,$$(SOURCES_$(1)))
+$(call archive,$(1)): $$(SOURCES_$(1):src/%.c=$(BUILD)/obj/%.o) $(BUILD)/lib$(1).sources
 	@rm -f $$@
 	$$(if $$(V),,@)$$(AR) rcs $$@ $$(filter %.o,$$^)
 TESTS_$(1) := $$(patsubst test/%.c,$(BUILD)/test/%,$$(wildcard test/$(1)/*.c))
@@ -97,15 +99,18 @@ $(BUILD)/obj/brdf/%.o: OPTIMIZE := -O3 -fno-trapping-math
 $(BUILD)/obj/scene/light_weights_%.o: OPTIMIZE := -O3 -fno-trapping-math
 
 # What the tools share among them, beside the library.
-$(BUILD)/libtools.a: $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/tools/common/*.c))
+SOURCES_tools := $(wildcard src/tools/common/*.c)
+$(eval $(call record_rule,libtools.sources,$$(SOURCES_tools)))
+$(BUILD)/libtools.a: $(SOURCES_tools:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libtools.sources
 	@rm -f $@
-	@$(AR) rcs $@ $^
+	@$(AR) rcs $@ $(filter %.o,$^)
 # A tool is src/tools/NAME.c, and the files in src/tools/NAME if that is not all of it. It links src/picture and all that
 # uses, or what BASIS_NAME says.
 BASIS_brdffit := fit
 define tool_rule
 PARTS_$(notdir $(1)) := $$(patsubst src/%.c,$(BUILD)/obj/%.o,$$(wildcard src/tools/$(notdir $(1)).c src/tools/$(notdir $(1))/*.c))
-$(1): $$(PARTS_$(notdir $(1))) $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(notdir $(1))),picture))
+$(call record_rule,$(notdir $(1)).sources,$$(PARTS_$(notdir $(1))))
+$(1): $$(PARTS_$(notdir $(1))) $(BUILD)/$(notdir $(1)).sources $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(notdir $(1))),picture))
 	@mkdir -p $$(@D)
 	$$(call say,$$@)$$(CC) $$(ALL_CFLAGS) -o $$@ $$(PARTS_$(notdir $(1))) $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(notdir $(1))),picture)) \
 	    $(call libs,$(or $(BASIS_$(notdir $(1))),picture)) $$(LDFLAGS)

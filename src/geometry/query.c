@@ -44,16 +44,17 @@ static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
     q->miss_count = 0;
 }
 
-static void trace(query *q) {
+/* False: the ray passes all by. */
+static bool trace(query *q) {
+    const geometry_tree *tree = &q->geometry->trees[0];
+    q->scene = (visit){.tree = tree, .center = tree->center, .radius = tree->radius, .unit = 1 / tree->scale};
+    q->visit = &q->scene;
+    if (!query_clip(q, &q->scene))
+        return false;
     query_cast(q);
     if (q->miss_count > 0)
         query_look_after_misses(q);
-}
-
-/* The scene itself, as all visits begin. */
-static visit visit_of_scene(const geometry *g) {
-    const geometry_tree *tree = &g->trees[0];
-    return (visit){.tree = tree, .center = tree->center, .radius = tree->radius, .unit = 1 / tree->scale};
+    return true;
 }
 
 static void describe_hit(const geometry *g, const candidate *found, geometry_hit *hit) {
@@ -82,12 +83,7 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
         return false;
     query q;
     prepare(&q, g, ray);
-    visit scene = visit_of_scene(g);
-    if (!query_clip(&q, &scene))
-        return false;
-    q.visit = &scene;
-    trace(&q);
-    const candidate *found = visible(&q);
+    const candidate *found = trace(&q) ? visible(&q) : NULL;
     if (!found)
         return false;
     hit->surface = found->surface;
@@ -105,12 +101,7 @@ static bool is_occluded(query *q, const geometry *g, const geometry_ray *ray, in
     q->target = target;
     q->any = true;
     q->passes_panes = passes_panes;
-    visit scene = visit_of_scene(g);
-    if (!query_clip(q, &scene))
-        return false;
-    q->visit = &scene;
-    trace(q);
-    return q->found_any;
+    return trace(q) && q->found_any;
 }
 
 bool geometry_occluded(const geometry *g, const geometry_ray *ray, int64_t target) {

@@ -50,6 +50,7 @@ enum { QUERY_CANDIDATES = 4 };
 typedef struct query {
     embree_context context; /* first, since Embree hands on its address */
     const geometry *geometry;
+    visit scene; /* as all visits begin */
     const visit *visit;
     vec3 origin, direction;
     double size;                 /* the origin's largest coordinate */

@@ -94,7 +94,7 @@ static graze_status read_orientation(graze_material *m, const rad_primitive *p, 
         return GRAZE_OK;
 
     rad_transform transform;
-    rad_primitive_name name;
+    rad_primitive_name name = {""};
     const place where = rad_primitive_place(p, &name);
     graze_status status = rad_transform_parse(&transform, p->strings + ORIENTATION_STRINGS,
                                               (int)(p->string_count - ORIENTATION_STRINGS), &where, report);

@@ -24,7 +24,7 @@ static graze_status read_transform(material_owner *o, uint32_t rest) {
     if (first == p->string_count)
         return GRAZE_OK;
     o->moved = true;
-    rad_primitive_name name;
+    rad_primitive_name name = {""};
     const place where = rad_primitive_place(p, &name);
     graze_status status =
         rad_transform_parse(&o->forward, p->strings + first, (int)(p->string_count - first), &where, o->report);
@@ -92,7 +92,7 @@ graze_status material_function_compile(material_function *f, material_library *l
                                        uint32_t file, const cal_expression *expressions, size_t count,
                                        uint64_t channels) {
     const rad_primitive *p = o->primitive;
-    rad_primitive_name name;
+    rad_primitive_name name = {""};
     const place where = rad_primitive_place(p, &name);
     const cal_request request = {.file = p->strings[file],
                                  .expressions = expressions,

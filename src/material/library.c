@@ -97,7 +97,7 @@ graze_status material_library_define(material_library *library, const char *text
 
 graze_status material_library_use_file(material_library *library, const char *file, const rad_primitive *p) {
     const cal_finder finder = {find_file, library};
-    rad_primitive_name owner;
+    rad_primitive_name owner = {""};
     const place where = rad_primitive_place(p, &owner);
     graze_status status = need_program(library);
     return status ? status : cal_program_use_file(library->program, file, &finder, &where, &library->report);
@@ -135,7 +135,7 @@ graze_status material_library_data(material_library *library, const char *name, 
             return report_out_of_memory(&library->report);
         *entry = (data_entry){.name = name, .next = library->data};
         library->data = entry;
-        rad_primitive_name owner;
+        rad_primitive_name owner = {""};
         const place where = rad_primitive_place(p, &owner);
         entry->status = find_path(library, name, "data file", p, &path);
         if (!entry->status)

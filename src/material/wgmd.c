@@ -145,10 +145,9 @@ static graze_material mirror_or_gloss(const lobe *l, graze_brdf_model model, vec
     return m;
 }
 
-static void clear_other_side(graze_surface *s, vec3 straight_on) {
+static void clear_other_side(graze_surface *s) {
     s->transmitted_diffuse = s->transmitted_specular = rgb_gray(0);
     s->transmitted_lobe = GRAZE_LOBE_NONE;
-    s->transmitted = straight_on;
     s->transmitted_u = s->lobe.alpha_x;
     s->transmitted_v = s->lobe.alpha_y;
 }
@@ -158,7 +157,7 @@ static double prepare_specular(graze_surface *s, const lobe *l, const material_w
     graze_material m = mirror_or_gloss(l, at->model, orientation);
     graze_surface_prepare(s, &m, at->normals[WGMD_SPECULAR], vec3_negate(at->ray.direction), NULL);
     s->diffuse = rgb_gray(0);
-    clear_other_side(s, at->straight_on);
+    clear_other_side(s);
     return s->fresnel ? 1 - material_fresnel(double_max(s->local_view.z, SMALLEST_COSINE)) : 1;
 }
 
@@ -172,7 +171,7 @@ static void prepare_black(graze_surface *s, const lobe *l, const material_wgmd_p
                               .has_orientation = 1,
                               .orientation = orientation};
     graze_surface_prepare(s, &m, at->normals[part], vec3_negate(at->ray.direction), NULL);
-    clear_other_side(s, at->straight_on);
+    clear_other_side(s);
 }
 
 static void set_through(graze_surface *s, const lobe *l, double left) {

@@ -36,11 +36,11 @@ typedef struct material_wgmd_point {
     graze_brdf_model model;
     vec3 normals[WGMD_PARTS];
     rgb colors[WGMD_PARTS];
-    vec3 straight_on; /* unit, where the viewer looks on beyond the surface */
 } material_wgmd_point;
 
 /* Prepares a surface for each part that there is; together they are the material. Where their normals are the same, so
- * are their frames, and material_wgmd_join makes one surface of them. */
+ * are their frames, and material_wgmd_join makes one surface of them. Where the viewer looks on beyond the surface is
+ * not theirs to say. */
 void material_wgmd_prepare(const material_wgmd *, const material_wgmd_point *, graze_surface parts[WGMD_PARTS]);
 void material_wgmd_join(graze_surface *, const graze_surface *part);
 

@@ -76,13 +76,13 @@ static bool cast_at(pixel *p, const path_context *context, const camera_sample *
 }
 
 /* One sample of what is seen there, where p->first is. */
-static void sample_at(const pixel *p, path_context *context, const camera_sample *at, sampler *points,
+static void sample_at(const pixel *p, path_context context, const camera_sample *at, sampler *points,
                       path_sample *sample) {
     path_indirect known;
     if (p->shared && shared_light_at(p->picture->shared, p->shared, &p->first, at->x - camera_center.x,
                                      at->y - camera_center.y, &known))
-        context->indirect = &known;
-    path_radiance(context, &p->first, points, sample);
+        context.indirect = &known;
+    path_radiance(&context, &p->first, points, sample);
 }
 
 static void sample_pixel(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
@@ -100,7 +100,7 @@ static void sample_pixel(void *user, sampler *points, path_sample *sample, estim
         }
         p->cast = !spread;
     }
-    sample_at(p, &context, &at, points, sample);
+    sample_at(p, context, &at, points, sample);
     if (sample->noisy)
         *luck = sample->searching ? ESTIMATE_SEARCH : ESTIMATE_NOISY;
 }
@@ -118,7 +118,7 @@ static rgb look_at_corner(const pixel *p, int corner, path_memory *memory) {
         return rgb_gray(0);
     sampler points = sampler_start(sampler_key(p->picture->trace.seed, p->number, CORNER_NUMBERS), (uint32_t)corner);
     path_sample sample;
-    sample_at(&there, &context, &at, &points, &sample);
+    sample_at(&there, context, &at, &points, &sample);
     for (int k = 0; k < sample.control_count; k++)
         sample.radiance = rgb_add(sample.radiance, sample.controls[k].difference);
     return sample.radiance;

@@ -15,7 +15,7 @@ struct scene_cuts {
     int count;           /* of antimatters */
     int materials[MOST]; /* of each its material */
     uint64_t *cut_by;    /* by surface: the antimatters that cut it */
-    int8_t *antimatter;  /* by surface: which one it bounds, or -1 */
+    int16_t *antimatter; /* by surface: which one it bounds, or -1 */
     shape *bounds;       /* their surfaces, those of each behind one another */
     geometry *of[MOST];  /* of the bounds of each: those of two may coincide */
 };
@@ -76,7 +76,7 @@ static graze_status build_bounds(graze_scene *scene, int antimatter, shape *boun
         if (scene->surfaces[k].material != cuts->materials[antimatter])
             continue;
         scene->shapes[k].passes = true;
-        cuts->antimatter[k] = (int8_t)antimatter;
+        cuts->antimatter[k] = (int16_t)antimatter;
         bounds[(*count)++] = scene->shapes[k];
     }
     const geometry_group group = {.shapes = bounds, .shape_count = *count};
@@ -106,7 +106,7 @@ graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report
     if (!cuts->cut_by || !cuts->antimatter || !cuts->bounds)
         return report_out_of_memory(report);
     scene->has_panes = true;
-    memset(cuts->antimatter, -1, scene->surface_count);
+    memset(cuts->antimatter, -1, scene->surface_count * sizeof *cuts->antimatter);
     graze_status status = GRAZE_OK;
     shape *bounds = cuts->bounds;
     size_t built;

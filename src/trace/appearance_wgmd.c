@@ -70,10 +70,9 @@ void appearance_prepare_wgmd(const path *p, const path_hit *hit, const encounter
                              material_effect before, vertex *v) {
     const material_wgmd *w = m->wgmd;
     material_effect effects[WGMD_PARTS];
-    material_wgmd_point at = look_at(hit, of, m, before, effects);
+    const material_wgmd_point at = look_at(hit, of, m, before, effects);
     graze_surface parts[WGMD_PARTS];
     int firsts[WGMD_PARTS];
-    at.straight_on = of->ray.direction;
     material_wgmd_prepare(w, &at, parts);
     int count = find_normals(w->has, at.normals, firsts);
     int drawn = count > 1 ? appearance_draw_of(p, count) : 0;

@@ -16,13 +16,13 @@ typedef struct estimate_half {
     uint32_t taken;
     int level;          /* a block has 2^level samples */
     estimate_luck luck; /* the worst of any sample */
-    path_rare rare;     /* sums */
-    bool integrated;    /* whether light was integrated in any sample */
     int control_count;
+    path_rare rare;  /* sums */
+    bool integrated; /* whether light was integrated in any sample */
     bool with_parts;
-    estimate_parts parts; /* sums */
-    rgb known_error;      /* sum of the errors of what was known beforehand */
     bool cached;
+    estimate_parts parts;                            /* sums */
+    rgb known_error;                                 /* sum of the errors of what was known beforehand */
     rgb told[IRRADIANCE_PARTS];                      /* sums */
     double lit[PATH_CONTROLS], whole[PATH_CONTROLS]; /* sums of the controls' */
     rgb sum[ESTIMATE_BLOCKS];                        /* those after the last block begun are not set */

@@ -181,7 +181,7 @@ __attribute__((noinline)) static bool arrive_by_branch(path *p, const path_branc
 static void walk(path *p, gathering *here, const path_branch *branch, path_branches *branches) {
     const path_context *context = p->context;
     gathering later[2]; /* one of them has seen the lights that the last scattering refers to */
-    other_side others[2];
+    other_side others[2], *beyond = others;
     if (branch) {
         here = &later[0];
         if (!arrive_by_branch(p, branch, here))
@@ -190,7 +190,8 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
     for (;;) {
         vertex *v = &here->vertex;
         const bool transmits = v->shading.transmits;
-        other_side *beyond = &others[transmits && p->last.lights == &others[0].lights];
+        if (transmits && p->last.lights == &beyond->lights)
+            beyond = beyond == others ? others + 1 : others;
         p->ambient_limit = v->no_ambient ? 0 : context->settings->ambient_bounces;
         bool decided = here->decided;
         if (!path_bounces_left(p))

@@ -127,8 +127,8 @@ fails "a file for a directory" 1 "Not a directory" "" "$gtrace" room.rad/room.ra
 [ ! -r /proc/self/mem ] || fails "a scene that fails to be read" 2 "Input/output error" "" "$gtrace" /proc/self/mem
 echo "void plastic p 0 0 5 1 1 1 0" >cut.rad
 fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
-printf '#comment\nvoid BSDF g 6 0 blinds.xml 0 0 1 . 0 0\ng sphere s 0 0 4 0 0 0 1\n' >measured.rad
-fails "a type not supported" 1 "measured.rad:2:1: BSDF g" "" "$gtrace" measured.rad
+printf '#comment\nvoid aBSDF g 5 a.xml 0 0 1 . 0 0\ng sphere s 0 0 4 0 0 0 1\n' >bsdf.rad
+fails "a type not supported" 1 "bsdf.rad:2:1: aBSDF g" "" "$gtrace" bsdf.rad
 printf 'void plastic g 0 0 5 .5 .5 .5 0 0\ng mesh i 1 /dev/zero 0 0\n' >endless.rad
 fails "a mesh without an end" 1 "endless.rad:2:1: cannot read /dev/zero: it is a device" "" "$gtrace" endless.rad
 printf 'void brightdata d 4 noneg /dev/zero . Px 0 0\nd plastic g 0 0 5 .5 .5 .5 0 0\ng sphere s 0 0 4 0 0 0 1\n' >endless.rad

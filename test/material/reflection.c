@@ -140,6 +140,37 @@ static void what_functions_see(void **state) {
     setting_end(&s);
 }
 
+/* A value of data, at the place that a function of the direction to the light gives, is the first argument of the
+ * function, before that direction and a solid angle of 0. A place that cannot be computed reflects nothing, nor does a
+ * value. */
+static void what_data_tell(void **state) {
+    (void)state;
+    static const char *const data = "1\n0 1 2\n.25 .75\n", *const functions =
+                                                               "f(v,x,y,z,w)=10*v+x+2*y+4*z+w;g(x,y,z,w)=sqrt(x)+w;"
+                                                               "h(v,x,y,z,w)=sqrt(v-.4);k(v,x,y,z,w)=-v;";
+    static const struct {
+        const char *function;
+        double x, y, z, value;
+    } cases[] = {
+        {"f", 0.36, 0.48, 0.8, 5.5 + 0.36 + 0.96 + 3.2}, {"f", -0.36, 0.48, 0.8, 0}, {"h", 0, 0.6, 0.8, 0},
+        {"h", 0.36, 0.48, 0.8, 0.38729833462074169},     {"k", 0.36, 0.48, 0.8, 0},
+    };
+    const material_reflection_point at = point_from(vec3_make(0, 0.6, -0.8), vec3_make(0, 0, 1));
+    written_file values = written_file_make(data, strlen(data)), file = written_file_make(functions, strlen(functions));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "void metdata m 4 %s %s %s g 0 4 .8 .4 .2 .25", cases[i].function, values.name,
+                 file.name);
+        setting s = compiled(text);
+        assert_string_equal(messages, "");
+        rgb found = material_reflection_value(s.reflection, &at, vec3_make(cases[i].x, cases[i].y, cases[i].z));
+        assert_color(found, cases[i].value, cases[i].value, cases[i].value);
+        setting_end(&s);
+    }
+    unlink(values.name);
+    unlink(file.name);
+}
+
 static void assert_refused(const char *text, const char *message) {
     setting s = setting_of(text);
     assert_int_not_equal(s.status, GRAZE_OK);
@@ -166,6 +197,10 @@ static void arguments_are_checked(void **state) {
     assert_refused("void BRTDfunc m 10 0 0 0 q 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 -1 0",
                    "real argument 8 is negative");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 -1 0 0 0 0 0 0 0 0",
+                   "real argument 1 is negative");
+    assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 -1",
+                   "real argument 9 is negative");
     assert_refused("void WGMDfunc m 13 void 0 0 0 lost .1 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 0",
                    "there is no modifier 'lost' before it");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 lost 1 0 0 . 0 9 0 0 0 0 0 0 0 0 1",
@@ -178,7 +213,10 @@ static void what_is_unphysical_is_told(void **state) {
         "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .5 .5 .5 .1 .1 .1 .6 .1 .1",
         "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .1 .1 .1 .5 .5 .5 .1 .1 .6",
         "void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 .5 .5 .5 .1 .1 .1 .6 .1 .1",
+        "void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 .1 .1 .1 .5 .5 .5 .1 .1 .6",
         "void transfunc m 2 max . 0 6 1.8 .4 .2 .25 .6 .5",
+        "void transfunc m 2 max . 0 6 .8 1.4 .2 .25 .6 .5",
+        "void transfunc m 2 max . 0 6 .8 .4 1.2 .25 .6 .5",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         setting s = compiled(texts[i]);
@@ -196,8 +234,7 @@ static void what_wgmdfunc_transmits(void **state) {
     setting s = compiled("void WGMDfunc m 13 lost 0 0 0 void .4 .2 .1 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
     const vec3 normal = {0, 0, 1}, direction = {0.6, 0, -0.8};
     material_wgmd_point at = {.ray = {.point = {0, 0, 0}, .direction = direction, .normal = normal},
-                              .model = GRAZE_BRDF_GMD,
-                              .straight_on = direction};
+                              .model = GRAZE_BRDF_GMD};
     for (int i = 0; i < WGMD_PARTS; i++) {
         at.normals[i] = normal;
         at.colors[i] = rgb_gray(1);
@@ -227,11 +264,135 @@ static void what_wgmdfunc_transmits(void **state) {
     setting_end(&s);
 }
 
+/* e^-5.85, as Radiance rounds it in its estimate. */
+#define ROUNDED 0.00287989916
+
+/* A point of a WGMDfunc without patterns or textures, seen from this direction. */
+static material_wgmd_point wgmd_point_from(vec3 direction) {
+    const double side = direction.z < 0 ? 1 : -1;
+    material_wgmd_point at = {.ray = {.point = {3, 4, 5}, .direction = direction, .normal = {0, 0, 1}},
+                              .model = GRAZE_BRDF_GMD};
+    for (int i = 0; i < WGMD_PARTS; i++) {
+        at.normals[i] = vec3_make(0, 0, side);
+        at.colors[i] = white;
+    }
+    return at;
+}
+
+/* Joined, a mirror is that of the whole. From behind it is another colour that is diffuse, and what mirrors or
+ * transmits is the same; very nearly along the surface, the cosine that Fresnel's estimate is of is 0.001. */
+static void what_is_left_of_wgmdfunc(void **state) {
+    (void)state;
+    static const vec3 directions[] = {{0.6, 0, -0.8}, {0.6, 0, 0.8}, {1, 0, -1e-7}};
+    static const double cosines[] = {0.8, 0.8, 1e-3};
+    setting s = compiled("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .2 .3 .4 .5 .6 .3 .2 .1");
+    for (int i = 0; i < 3; i++) {
+        const material_wgmd_point at = wgmd_point_from(directions[i]);
+        const double left = 1 - (exp(-5.85 * cosines[i]) - ROUNDED), more = i == 1 ? 0.3 : 0;
+        graze_surface parts[WGMD_PARTS];
+        material_wgmd_prepare(s.wgmd, &at, parts);
+        graze_surface joined = parts[WGMD_DIFFUSE];
+        for (int part = WGMD_SPECULAR; part < WGMD_PARTS; part++)
+            material_wgmd_join(&joined, &parts[part]);
+        assert_int_equal(joined.specular_lobe, GRAZE_LOBE_MIRROR);
+        assert_true(joined.specular.g == parts[WGMD_SPECULAR].specular.g && joined.transmits && joined.fresnel);
+        assert_color(joined.diffuse, (0.1 + more) * left, (0.2 + more) * left, (0.3 + more) * left);
+        assert_color(joined.transmitted_diffuse, 0.3 * left, 0.2 * left, 0.1 * left);
+        assert_color(joined.transmitted_specular, 0.4 * left, 0.4 * left, 0.4 * left);
+        assert_color(material_wgmd_through(s.wgmd, &at), 0.4 * left, 0.4 * left, 0.4 * left);
+    }
+    setting_end(&s);
+}
+
+/* Functions see the surface's own normal and the part's on the viewer's side, from where the material is turned to. */
+static void what_functions_of_wgmdfunc_see(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "void WGMDfunc m 13 void RdotP/10 0 0 void -NzP*.4 Nz*.2 -Rdot*.25 void 1 0 0 . 0 9 0 0 0 0 0 0 0 0 0",
+        "void WGMDfunc m 15 void RdotP/10 0 0 void NzP*.4 -Nz*.2 -Rdot*.25 void 1 0 0 . -rx 180 0 9 0 0 0 0 0 0 0 0 0",
+    };
+    for (int i = 0; i < 2; i++) {
+        setting s = compiled(texts[i]);
+        const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, 0.8));
+        const double fresnel = exp(-5.85 * 0.8) - ROUNDED;
+        graze_surface parts[WGMD_PARTS];
+        material_wgmd_prepare(s.wgmd, &at, parts);
+        const double mirrored = 0.08 + 0.92 * fresnel, through = 0.4 * (1 - fresnel);
+        assert_color(parts[WGMD_SPECULAR].specular, mirrored, mirrored, mirrored);
+        assert_color(parts[WGMD_THROUGH].transmitted_specular, through, through, through);
+        assert_true(fabs(parts[WGMD_THROUGH].transmitted_u - 0.2) < 1e-12);
+        assert_true(fabs(parts[WGMD_THROUGH].transmitted_v - 0.2) < 1e-12);
+        setting_end(&s);
+    }
+}
+
+/* Nothing comes through where there is no such part, and none is prepared. */
+static void parts_that_are_not_there(void **state) {
+    (void)state;
+    setting s = compiled("void WGMDfunc m 13 inherit .1 .1 .1 inherit 0 .1 .1 lost 1 0 0 . 0 9 .1 .2 .3 0 0 0 0 0 0");
+    const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, -0.8));
+    graze_surface parts[WGMD_PARTS] = {{.transmits = 7}, {.transmits = 7}, {.transmits = 7}, {.transmits = 7}};
+    assert_true(s.wgmd->has[WGMD_SPECULAR] && s.wgmd->inherits[WGMD_SPECULAR] && !s.wgmd->may_mirror);
+    assert_false(s.wgmd->has[WGMD_THROUGH] || s.wgmd->has[WGMD_THROUGH_DIFFUSE] || s.wgmd->may_be_clear);
+    material_wgmd_prepare(s.wgmd, &at, parts);
+    assert_int_equal(parts[WGMD_DIFFUSE].transmits, 0);
+    assert_int_equal(parts[WGMD_SPECULAR].transmits, 0);
+    assert_int_equal(parts[WGMD_THROUGH].transmits, 7);
+    assert_int_equal(parts[WGMD_THROUGH_DIFFUSE].transmits, 7);
+    assert_color(material_wgmd_through(s.wgmd, &at), 0, 0, 0);
+    setting_end(&s);
+}
+
+/* A weak mirror has no Fresnel's estimate and takes nothing from what else there is; one that is next to nothing, or
+ * that no value can be computed of, is none. So are roughnesses next to nothing. */
+static void what_is_weak_in_wgmdfunc(void **state) {
+    (void)state;
+    static const struct {
+        const char *specular;
+        double mirrored;
+        bool mirrors, has, rough;
+    } cases[] = {
+        {".017 0 0", 0.017, true, true, false},         {".000001001 0 .2", 1.001e-6, true, true, false},
+        {".000000999 0 0", 0, false, false, false},     {"Px*1e-7 0 0", 0, true, true, false},
+        {"sqrt(-Px) 0 0", 0, true, true, false},        {".01 .000000999 .2", 0.01, true, true, false},
+        {".01 .2 .000000999", 0.01, true, true, false}, {".01 .000001001 .000001001", 0.01, false, true, true},
+        {".01 Px 0", 0.01, true, true, false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "void WGMDfunc m 13 void %s void .4 0 0 void sqrt(-Px) 0 0 . 0 9 .1 .1 .1 0 0 0 0 0 0",
+                 cases[i].specular);
+        setting s = compiled(text);
+        const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, -0.8));
+        graze_surface parts[WGMD_PARTS];
+        material_wgmd_prepare(s.wgmd, &at, parts);
+        const bool has = s.wgmd->has[WGMD_SPECULAR];
+        const double mirrored = has ? parts[WGMD_SPECULAR].specular.g : 0;
+        const bool rough = has && parts[WGMD_SPECULAR].specular_lobe == GRAZE_LOBE_GLOSSY;
+        if (has != cases[i].has || s.wgmd->may_mirror != cases[i].mirrors || rough != cases[i].rough ||
+            !(fabs(mirrored - cases[i].mirrored) <= 1e-12 * cases[i].mirrored) || parts[WGMD_DIFFUSE].fresnel)
+            fail_msg("%s: %d %d %d %g", text, has, s.wgmd->may_mirror, rough, mirrored);
+        assert_color(parts[WGMD_DIFFUSE].diffuse, 0.1, 0.1, 0.1);
+        assert_color(parts[WGMD_THROUGH].transmitted_specular, 0.4, 0.4, 0.4);
+        assert_color(material_wgmd_through(s.wgmd, &at), 0.4, 0.4, 0.4);
+        setting_end(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_transfunc_divides),     cmocka_unit_test(what_brtdfunc_divides),
-        cmocka_unit_test(what_functions_see),         cmocka_unit_test(arguments_are_checked),
-        cmocka_unit_test(what_is_unphysical_is_told), cmocka_unit_test(what_wgmdfunc_transmits),
+        cmocka_unit_test(what_transfunc_divides),
+        cmocka_unit_test(what_brtdfunc_divides),
+        cmocka_unit_test(what_functions_see),
+        cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(what_is_unphysical_is_told),
+        cmocka_unit_test(what_wgmdfunc_transmits),
+        cmocka_unit_test(what_functions_of_wgmdfunc_see),
+        cmocka_unit_test(parts_that_are_not_there),
+        cmocka_unit_test(what_data_tell),
+        cmocka_unit_test(what_is_left_of_wgmdfunc),
+        cmocka_unit_test(what_is_weak_in_wgmdfunc),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -92,6 +92,49 @@ static void antimatter_is_checked(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* As many as there are bits; the next one is refused by its name and place. */
+static void antimatters_and_mists_are_counted(void **state) {
+    (void)state;
+    static const struct {
+        const char *type, *arguments, *place, *reason;
+        int most;
+    } cases[] = {
+        {"antimatter", "1 void 0 0", ":65:1: antimatter m64", "it is more than the 64-th antimatter", 64},
+        {"mist", "0 0 3 1 1 1", ":33:1: mist m32", "it is more than the 32-th mist", 32},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static char text[10000];
+        for (int more = 0; more <= 1; more++) {
+            char *end = text;
+            for (int k = 0; k < cases[i].most + more; k++) {
+                size_t left = sizeof text - (size_t)(end - text);
+                end += snprintf(end, left, "void %s m%d %s m%d sphere s%d 0 0 4 %d 0 0 .3\n", cases[i].type, k,
+                                cases[i].arguments, k, k, k);
+            }
+            graze_scene *scene = more ? NULL : scene_from_text(text);
+            if (more)
+                assert_refused(text, cases[i].place, cases[i].reason);
+            else if (!scene)
+                fail_msg("%s", messages);
+            graze_scene_destroy(scene);
+        }
+    }
+}
+
+/* Lights are sampled in mirrors that are whole, and those that are cut are found by reflection. */
+static void mirrors_that_are_cut_are_not_sampled(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text(
+        "void mirror cut 0 0 3 1 1 1 void mirror whole 0 0 3 1 1 1 void antimatter a 2 void cut 0 0 "
+        "cut ring r 0 0 8 0 0 0 0 0 1 0 1 whole ring s 0 0 8 3 0 0 0 0 1 0 1 a sphere t 0 0 4 0 0 0 .5");
+    assert_non_null(scene);
+    assert_int_equal(scene->mirror_count, 1);
+    assert_string_equal(scene->primitives[scene->surfaces[scene->mirrors[0]].primitive].id, "s");
+    for (size_t i = 0; i < scene->surface_count; i++)
+        assert_true(scene->surfaces[i].mirrors == ((int)i == scene->mirrors[0]));
+    graze_scene_destroy(scene);
+}
+
 static void mist_is_checked(void **state) {
     (void)state;
     assert_refused("void mist i 0 0 2 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mist i", "0, 3, 6 or 7");
@@ -290,6 +333,8 @@ int main(void) {
         cmocka_unit_test(prisms_are_checked),
         cmocka_unit_test(alternates_of_mirrors_are_checked),
         cmocka_unit_test(antimatter_is_checked),
+        cmocka_unit_test(antimatters_and_mists_are_counted),
+        cmocka_unit_test(mirrors_that_are_cut_are_not_sampled),
         cmocka_unit_test(mist_is_checked),
         cmocka_unit_test(mist_and_antimatter_stand_alone),
         cmocka_unit_test(all_mistakes_are_told_at_once),

@@ -24,9 +24,7 @@ static const char *const bodies =
     "p polygon wall 0 0 12 -3 3 -3 3 3 -3 3 3 3 -3 3 3 ";
 
 /* What a ray along y meets. */
-static void assert_met(const char *antimatter, double x, double distance, const char *surface, double normal_y) {
-    char text[2000];
-    snprintf(text, sizeof text, "%s%s", bodies, antimatter);
+static void assert_met_in(const char *text, double x, double distance, const char *surface, double normal_y) {
     graze_scene *scene = load(text);
     graze_trace_settings settings = graze_trace_defaults();
     const graze_ray ray = {.origin = {x, -5, 0}, .direction = {0, 1, 0}};
@@ -34,9 +32,15 @@ static void assert_met(const char *antimatter, double x, double distance, const 
     graze_cast(scene, &settings, &ray, &hit);
     if (!hit.surface || strcmp(hit.surface, surface) || fabs(hit.distance - distance) > 1e-9 ||
         fabs(hit.shading_normal.y - normal_y) > 1e-9)
-        fail_msg("%s: %s at %g, normal %g", antimatter, hit.surface ? hit.surface : "nothing", hit.distance,
+        fail_msg("%s: %s at %g, normal %g", text, hit.surface ? hit.surface : "nothing", hit.distance,
                  hit.shading_normal.y);
     graze_scene_destroy(scene);
+}
+
+static void assert_met(const char *antimatter, double x, double distance, const char *surface, double normal_y) {
+    char text[2000];
+    snprintf(text, sizeof text, "%s%s", bodies, antimatter);
+    assert_met_in(text, x, distance, surface, normal_y);
 }
 
 #define ENDS "a ring e 0 0 8 0 -2 0 0 -1 0 0 .5 a ring f 0 0 8 0 2 0 0 1 0 0 .5"
@@ -61,6 +65,22 @@ static void bodies_are_cut(void **state) {
     assert_met(
         "void antimatter a 1 p 0 0 a sphere s 0 0 4 0 -1 0 .5 void antimatter b 1 p 0 0 b sphere t 0 0 4 0 -.4 0 .3", 0,
         4.9, "t", -1);
+}
+
+/* The order of surfaces does not matter, nor does it with several antimatters. */
+static void bodies_are_cut_in_any_order(void **state) {
+    (void)state;
+    const char *const head = "void plastic p 0 0 5 .5 .5 .5 0 0 void antimatter a 1 p 0 0 void antimatter b 1 p 0 0 ";
+    static const char *const surfaces[] = {"a sphere s 0 0 4 0 -1 0 .5 ", "b sphere t 0 0 4 0 -.4 0 .3 ",
+                                           "p sphere ball 0 0 4 0 0 0 1 "};
+    static const int orders[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
+        char text[500];
+        snprintf(text, sizeof text, "%s%s%s%s", head, surfaces[orders[i][0]], surfaces[orders[i][1]],
+                 surfaces[orders[i][2]]);
+        assert_met_in(text, 0, 4.9, "t", -1);
+        assert_met_in(text, 0.4, 5 - 1 + 0.3, "s", -0.6);
+    }
 }
 
 /* A room seen through a hole that antimatter makes is as bright as one with the hole left open. */
@@ -100,6 +120,7 @@ static void light_comes_through_holes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_are_cut),
+        cmocka_unit_test(bodies_are_cut_in_any_order),
         cmocka_unit_test(light_comes_through_holes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

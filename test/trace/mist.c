@@ -88,6 +88,76 @@ static void lamps_are_scattered(void **state) {
     }
 }
 
+/* The sun in a ball of mist, and in one that is clear for one colour: the integral along the ray, by quadrature. */
+static void the_sun_is_scattered(void **state) {
+    (void)state;
+    const double albedo = 0.7, angle = 0.2 * PI / 180, solid_angle = 2 * PI * (1 - cos(angle / 2)), e = 0.6;
+    const double turned = 1 + e * e - 2 * e * 0.6, phase = (1 - e * e) / (4 * PI * turned * sqrt(turned));
+    const double extinctions[] = {0.8, 0.4, 0};
+    double sums[3] = {0, 0, 0};
+    const int steps = 20000;
+    for (int c = 0; c < 2; c++)
+        for (int i = 0; i < steps; i++) {
+            double t = -2 + 4 * (i + 0.5) / steps, up = -0.6 * t + sqrt(0.36 * t * t + 4 - t * t);
+            double left = exp(-extinctions[c] * (t + 2) - extinctions[c] * (1 - albedo) * up);
+            sums[c] += 1e6 * extinctions[c] * albedo * phase * solid_angle * left * 4 / steps;
+        }
+    for (int clear = 0; clear < 2; clear++) {
+        char text[500];
+        snprintf(text, sizeof text,
+                 "void light l 0 0 3 1e6 1e6 1e6 l source sun 0 0 4 0 .6 .8 .2 void mist m 1 sun 0 7 .8 .4 %s .7 .7 .7 "
+                 ".6 m sphere s 0 0 4 0 0 0 2",
+                 clear ? "0" : ".4");
+        graze_answer a =
+            answer_of(text, graze_trace_defaults(), GRAZE_RADIANCE, vec3_make(0, -9, 0), vec3_make(0, 1, 0));
+        const double found[] = {a.value.r, a.value.g, a.value.b}, expected[] = {sums[0], sums[1], sums[clear ? 2 : 1]},
+                     errors[] = {a.standard_error.r, a.standard_error.g, a.standard_error.b};
+        for (int c = 0; c < 3; c++)
+            if (!(fabs(found[c] - expected[c]) <= 4.5 * errors[c] + 1e-3 * expected[c]) || errors[c] > 0.01 * sums[1])
+                fail_msg("%d: %g +- %g, not %g", c, found[c], errors[c], expected[c]);
+    }
+}
+
+/* A light that two mists name where they overlap is scattered once: a mist in the midst of another need not name it. */
+static void lights_that_two_mists_name(void **state) {
+    (void)state;
+    static const char *const mists[] = {
+        "void mist m 1 lamp 0 3 .4 .4 .4 m sphere s 0 0 4 0 0 0 2 void mist n %s 0 6 .3 .2 .1 .7 .6 .5 n sphere t 0 0 "
+        "4 0 0 0 1",
+        "void mist n %s 0 6 .3 .2 .1 .7 .6 .5 n sphere t 0 0 4 0 0 0 1 void mist m 1 lamp 0 3 .4 .4 .4 m sphere s 0 0 "
+        "4 0 0 0 2",
+    };
+    graze_trace_settings settings = graze_trace_defaults();
+    settings.mist_albedo = rgb_gray(0.5);
+    for (int i = 0; i < 2; i++) {
+        graze_answer answers[2];
+        for (int named = 0; named < 2; named++) {
+            char mist[300], text[500];
+            snprintf(mist, sizeof mist, mists[i], named ? "1 lamp" : "0");
+            snprintf(text, sizeof text, "void light l 0 0 3 100 100 100 l sphere lamp 0 0 4 3 0 0 .2 %s", mist);
+            answers[named] = answer_of(text, settings, GRAZE_RADIANCE, vec3_make(0.3, -9, 0), vec3_make(0, 1, 0));
+        }
+        assert_true(answers[0].value.b > 0.01);
+        assert_memory_equal(&answers[0].value, &answers[1].value, sizeof answers[0].value);
+    }
+}
+
+/* What stands in the light's way is in the shade; what mist itself shines by the ambient value is not. */
+static void things_shade_mist(void **state) {
+    (void)state;
+    const char *text =
+        "void light l 0 0 3 100 100 100 l sphere lamp 0 0 4 5 0 0 .2 void plastic p 0 0 5 0 0 0 0 0 "
+        "p sphere shade 0 0 4 5 0 0 .4 void mist m 1 lamp 0 6 .4 .4 .4 .5 .6 .7 m sphere s 0 0 4 0 0 0 2";
+    graze_trace_settings settings = graze_trace_defaults();
+    graze_answer a = answer_of(text, settings, GRAZE_RADIANCE, vec3_make(0, -9, 0), vec3_make(0, 1, 0));
+    assert_true(a.value.r == 0 && a.value.g == 0 && a.value.b == 0);
+    settings.ambient_value = (graze_rgb){1, 2, 3};
+    a = answer_of(text, settings, GRAZE_RADIANCE, vec3_make(0, -9, 0), vec3_make(0, 1, 0));
+    const double scattered = 1 - exp(-0.4 * 4);
+    assert_true(fabs(a.value.r - 0.5 * scattered) < 1e-9 && fabs(a.value.g - 1.2 * scattered) < 1e-9 &&
+                fabs(a.value.b - 2.1 * scattered) < 1e-9);
+}
+
 static void strategies_agree(void **state) {
     (void)state;
     const char *text =
@@ -129,9 +199,9 @@ static void no_mist_changes_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_is_attenuated),
-        cmocka_unit_test(lamps_are_scattered),
-        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(light_is_attenuated),     cmocka_unit_test(lamps_are_scattered),
+        cmocka_unit_test(the_sun_is_scattered),    cmocka_unit_test(lights_that_two_mists_name),
+        cmocka_unit_test(things_shade_mist),       cmocka_unit_test(strategies_agree),
         cmocka_unit_test(no_mist_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

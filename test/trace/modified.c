@@ -74,8 +74,8 @@ static const char *const materials[] = {
     TEXTURE "t trans m 0 0 7 .9 .8 .7 .05 .3 .6 .7",
     "void plastic a 0 0 5 .8 .2 .2 .1 .1 void mixfunc m 4 a void .4 . 0 0",
     "void trans a 0 0 7 .9 .8 .7 .05 .3 .6 .7 void mixfunc m 4 void a .4 . 0 0",
-    "void transfunc a 2 max . 0 6 .7 .6 .5 .2 .6 .7 void mixfunc b 4 a void .4 . 0 0 void glass c 0 0 3 .9 .8 .7 "
-    "void mixfunc m 4 b c .3 . 0 0",
+    ("void transfunc a 2 max . 0 6 .7 .6 .5 .2 .6 .7 void mixfunc b 4 a void .4 . 0 0 void glass c 0 0 3 .9 .8 .7 "
+     "void mixfunc m 4 b c .3 . 0 0"),
 };
 
 static void strategies_agree(void **state) {

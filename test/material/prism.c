@@ -1,0 +1,117 @@
+/* Where prisms send light on: by hand, and where their functions fail. */
+#include "material/prism.h"
+
+#include "material/support.h"
+#include "support/written_file.h"
+
+/* A scene of which the last primitive is a prism. */
+typedef struct setting {
+    rad_scene *scene;
+    material_modifiers *modifiers;
+    const material_prism *prism;
+} setting;
+
+static setting compiled(const char *text) {
+    setting s;
+    written_file file = written_file_make(text, strlen(text));
+    const char *names[] = {file.name};
+    size_t count;
+    messages[0] = 0;
+    graze_status status = rad_scene_read(&s.scene, names, 1, &remembering);
+    unlink(file.name);
+    assert_int_equal(status, GRAZE_OK);
+    const rad_primitive *primitives = rad_scene_primitives(s.scene, &count);
+    s.modifiers = material_modifiers_create(primitives, count, &remembering);
+    assert_non_null(s.modifiers);
+    status = material_prism_compile(&s.prism, material_modifiers_library(s.modifiers), &primitives[count - 1]);
+    if (status)
+        fail_msg("%s: %s", text, messages);
+    return s;
+}
+
+static void setting_end(setting *s) {
+    material_modifiers_destroy(s->modifiers);
+    rad_scene_destroy(s->scene);
+}
+
+static const material_ray ray = {
+    .point = {3, 4, 5}, .direction = {0, 0.6, -0.8}, .normal = {0, 0, 1}, .distance = 1, .last_distance = 1};
+
+static void assert_way(material_way way, double coefficient, double x, double y, double z) {
+    if (!(fabs(way.coefficient - coefficient) <= 1e-12 * coefficient))
+        fail_msg("%.17g is not %.17g", way.coefficient, coefficient);
+    if (coefficient > 0 && !(vec3_max_abs(vec3_subtract(way.direction, vec3_make(x, y, z))) < 1e-12))
+        fail_msg("%g %g %g is not %g %g %g", way.direction.x, way.direction.y, way.direction.z, x, y, z);
+}
+
+/* Both ways, of any length; the second is none of a prism1. What turns a prism turns what its functions know and say.
+ */
+static void ways_are_functions(void **state) {
+    (void)state;
+    material_way ways[2];
+    setting s = compiled("void prism2 m 9 Px/10 Dx Dy Dz A1 3 0 -4*Nz . 0 1 2.5");
+    material_prism_ways(s.prism, &ray, ways);
+    assert_way(ways[0], 0.3, 0, 0.6, -0.8);
+    assert_way(ways[1], 2.5, 0.6, 0, -0.8);
+    assert_string_equal(messages, "");
+    setting_end(&s);
+    s = compiled("void prism1 m 7 -Dy+.5 0 0 2 . -rx 90 0 0");
+    material_prism_ways(s.prism, &ray, ways);
+    assert_way(ways[0], 0.5 + 0.8, 0, -1, 0);
+    assert_way(ways[1], 0, 0, 0, 0);
+    setting_end(&s);
+}
+
+/* A way of no coefficient above 0, or of no direction, is none; the other one stays. No coefficient is boundless. */
+static void ways_that_lead_nowhere(void **state) {
+    (void)state;
+    static const struct {
+        const char *first;
+        double coefficient;
+    } cases[] = {
+        {"0 Dx Dy Dz", 0}, {"-1 Dx Dy Dz", 0}, {"1 0 0 0", 0}, {"1e300 0 1e-9 0", 1e10}, {"9e9 0 1 0", 9e9},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[200];
+        material_way ways[2];
+        snprintf(text, sizeof text, "void prism2 m 9 %s .5 0 0 -1 . 0 0", cases[i].first);
+        setting s = compiled(text);
+        material_prism_ways(s.prism, &ray, ways);
+        assert_way(ways[0], cases[i].coefficient, 0, 1, 0);
+        assert_way(ways[1], 0.5, 0, 0, -1);
+        setting_end(&s);
+    }
+    /* Turned, it is longer than any number. */
+    material_way ways[2];
+    setting s = compiled("void prism1 m 7 1 1.7e308 1.7e308 0 . -rz 45 0 0");
+    material_prism_ways(s.prism, &ray, ways);
+    assert_way(ways[0], 0, 0, 0, 0);
+    setting_end(&s);
+    s = compiled("void prism2 m 9 .5 0 0 -1 .5 Dx Dy sqrt(-Px) . 0 0");
+    material_prism_ways(s.prism, &ray, ways);
+    assert_way(ways[0], 0, 0, 0, 0);
+    assert_way(ways[1], 0, 0, 0, 0);
+    assert_non_null(strstr(messages, ":1:1: prism2 m: compute error"));
+    setting_end(&s);
+}
+
+/* No ray is aimed at a light, and what modifies a prism does nothing: both are told. */
+static void what_is_without_effect_is_told(void **state) {
+    (void)state;
+    material_way ways[2];
+    setting s = compiled("void brightfunc b 2 .5 . 0 0\nb prism1 m 5 .5+DxA+DyA+DzA 0 0 -1 . 0 0");
+    assert_non_null(strstr(messages, ":2:1: prism1 m: what modifies it has no effect, as in Radiance"));
+    assert_non_null(strstr(messages, ":2:1: prism1 m: DxA, DyA and DzA are 0"));
+    material_prism_ways(s.prism, &ray, ways);
+    assert_way(ways[0], 0.5, 0, 0, -1);
+    setting_end(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ways_are_functions),
+        cmocka_unit_test(ways_that_lead_nowhere),
+        cmocka_unit_test(what_is_without_effect_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
