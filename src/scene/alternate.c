@@ -34,6 +34,8 @@ graze_status scene_read_alternate(scene_builder *b, const rad_primitive *p, int 
     if (*alternate < 0)
         return b->status;
     const scene_material *seen = scene_material_seen(b->scene, &b->scene->materials[*alternate]);
+    if (scene_material_is_region(&b->scene->materials[*alternate]))
+        return rad_primitive_error(b->report, p, "it names '%.64s', mist or antimatter: that is not supported", name);
     return scene_material_emits(seen) ? rad_primitive_error(b->report, p, "it is seen as %s, which shines", name)
                                       : GRAZE_OK;
 }

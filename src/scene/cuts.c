@@ -40,6 +40,10 @@ static graze_status note_cut(graze_scene *scene, int antimatter, const graze_rep
     const rad_primitive *p = &scene->primitives[scene->materials[cuts->materials[antimatter]].primitive];
     for (uint32_t i = 0; i < p->string_count; i++) {
         int modifier = listed(scene, p, p->strings[i], report);
+        if (modifier != RAD_VOID &&
+            (scene->primitives[modifier].type == RAD_MIST || scene->primitives[modifier].type == RAD_ANTIMATTER))
+            return rad_primitive_error(report, p, "it names '%.64s', mist or antimatter: that is not supported",
+                                       p->strings[i]);
         for (size_t k = 0; k < scene->surface_count && modifier != RAD_VOID; k++) {
             if (scene->primitives[scene->surfaces[k].primitive].modifier != modifier)
                 continue;

@@ -108,6 +108,8 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
     if (material->fore < 0 || material->back < 0)
         return b->status;
     const scene_material *all = b->scene->materials;
+    if (scene_material_is_region(&all[material->fore]) || scene_material_is_region(&all[material->back]))
+        return rad_primitive_error(b->report, p, "a mixture with mist or antimatter is not supported");
     const scene_material *fore = scene_material_seen(b->scene, &all[material->fore]);
     const scene_material *back = scene_material_seen(b->scene, &all[material->back]);
     material->fore = (int)(fore - all);
@@ -156,10 +158,7 @@ static graze_status read_antimatter(scene_builder *b, scene_material *material, 
     material->modifiers = NULL;
     if (!strcmp(p->strings[0], "void"))
         return GRAZE_OK;
-    graze_status status = scene_read_alternate(b, p, &material->alternate);
-    if (status == GRAZE_OK && b->scene->materials[material->alternate].cuts)
-        return rad_primitive_error(b->report, p, "antimatter cannot be cut");
-    return status;
+    return scene_read_alternate(b, p, &material->alternate);
 }
 
 static graze_status read_mist(scene_builder *b, scene_material *material, const rad_primitive *p) {

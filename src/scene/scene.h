@@ -162,6 +162,11 @@ static inline bool scene_material_emits(const scene_material *m) {
     return m->kind == SCENE_EMITTER;
 }
 
+/* Whether surfaces of the material only tell what is inside of them: mist, or antimatter. */
+static inline bool scene_material_is_region(const scene_material *m) {
+    return m->mist >= 0 || m->cuts;
+}
+
 /* Which material it shines by, itself or one in its mixtures; or -1. */
 static inline int scene_material_shining(const graze_scene *scene, int material) {
     const scene_material *m = &scene->materials[material];

@@ -82,11 +82,29 @@ static void antimatter_is_checked(void **state) {
         "0 0 1\n",
         "antimatter i", "cuts l, which shines");
     assert_refused("void antimatter j 1 void 0 0 void antimatter i 1 j 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i",
-                   "cannot be cut");
+                   "it names 'j', mist or antimatter");
+    assert_refused("void antimatter j 1 void 0 0 void antimatter i 2 void j 0 0 i sphere s 0 0 4 0 0 0 1\n",
+                   "antimatter i", "it names 'j', mist or antimatter");
     graze_scene *scene = scene_from_text("void antimatter i 2 void no 0 0 i sphere s 0 0 4 0 0 0 1");
     assert_non_null(scene);
     assert_non_null(strstr(messages, "antimatter i: there is no modifier 'no' before it, which it could cut"));
     graze_scene_destroy(scene);
+}
+
+/* Where they would be passed over without a word. */
+static void mist_and_antimatter_stand_alone(void **state) {
+    (void)state;
+    static const char *const regions[] = {"void mist r 0 0 3 1 1 1",
+                                          "void plastic p 0 0 5 1 1 1 0 0 void antimatter r 1 p 0 0"};
+    static const char *const users[] = {"void illum i 1 r 0 3 1 1 1", "void mirror i 1 r 0 3 1 1 1",
+                                        "void antimatter i 1 r 0 0", "void mixfunc i 4 r void .5 . 0 0",
+                                        "void mixfunc i 4 void r .5 . 0 0"};
+    for (size_t i = 0; i < sizeof regions / sizeof *regions; i++)
+        for (size_t k = 0; k < sizeof users / sizeof *users; k++) {
+            char text[400];
+            snprintf(text, sizeof text, "%s %s i sphere s 0 0 4 0 0 0 1\n", regions[i], users[k]);
+            assert_refused(text, " i: ", "mist or antimatter");
+        }
 }
 
 static void mist_is_checked(void **state) {
@@ -271,6 +289,7 @@ int main(void) {
         cmocka_unit_test(prisms_are_checked),
         cmocka_unit_test(alternates_of_mirrors_are_checked),
         cmocka_unit_test(antimatter_is_checked),
+        cmocka_unit_test(mist_and_antimatter_stand_alone),
         cmocka_unit_test(mist_is_checked),
         cmocka_unit_test(all_mistakes_are_told_at_once),
         cmocka_unit_test(unused_modifiers_do_no_harm),

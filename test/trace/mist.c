@@ -157,10 +157,8 @@ static void no_mist_changes_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_is_attenuated),
-        cmocka_unit_test(lamps_are_scattered),
-        cmocka_unit_test(strategies_agree),
-        cmocka_unit_test(overlapping_bodies_are_one_span),
+        cmocka_unit_test(light_is_attenuated),     cmocka_unit_test(lamps_are_scattered),
+        cmocka_unit_test(strategies_agree),        cmocka_unit_test(overlapping_bodies_are_one_span),
         cmocka_unit_test(no_mist_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
