@@ -129,22 +129,33 @@ static void find_medium(const mist_walk *w, mist_span *span) {
     }
 }
 
+/* Takes the boundary that the ray meets next, if it is before the end of its way, and tells whether the mist begins or
+ * ends there: where bodies of one mist overlap, it does not. */
+static bool cross_boundary(mist_walk *w, double *at, bool *changes) {
+    int first = -1;
+    *at = w->distance;
+    for (int i = 0; w->mist && i < w->mist->count; i++)
+        if (w->of[i].next < *at) {
+            *at = w->of[i].next;
+            first = i;
+        }
+    if (first < 0)
+        return false;
+    bool before = w->of[first].balance > 0;
+    w->of[first].balance += w->of[first].change;
+    w->of[first].next += step(w->mist->of[first].geometry, &w->of[first].ray, &w->of[first].change);
+    *changes = before != (w->of[first].balance > 0);
+    return true;
+}
+
 bool mist_walk_next(mist_walk *w, mist_span *span) {
     if (!(w->at < w->distance))
         return false;
     find_medium(w, span);
     span->start = w->at;
-    span->end = w->distance;
-    int first = -1;
-    for (int i = 0; w->mist && i < w->mist->count; i++)
-        if (w->of[i].next < span->end) {
-            span->end = w->of[i].next;
-            first = i;
-        }
-    w->at = span->end;
-    if (first >= 0) {
-        w->of[first].balance += w->of[first].change;
-        w->of[first].next += step(w->mist->of[first].geometry, &w->of[first].ray, &w->of[first].change);
+    bool changes = false;
+    while (!changes && cross_boundary(w, &span->end, &changes)) {
     }
+    w->at = span->end;
     return true;
 }

@@ -4,12 +4,14 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "base/angle.h"
 #include "base/vector.h"
 #include "graze/trace.h"
+#include "scene/mist.h"
 #include "support/scene_text.h"
 
 static graze_answer answer_of(const char *text, graze_trace_settings settings, graze_quantity quantity, vec3 origin,
@@ -184,6 +186,32 @@ static void strategies_agree(void **state) {
     }
 }
 
+/* Many bodies of one mist that overlap are one: light would be scattered, and shadow rays walk, once for each. */
+static void overlapping_bodies_are_one_span(void **state) {
+    (void)state;
+    char text[8000] = "void light l 0 0 3 1 1 1 l sphere lamp 0 0 4 0 0 9 1 void mist m 1 lamp 0 6 .1 .1 .1 .5 .5 .5";
+    for (int i = 0; i < 100; i++) {
+        size_t length = strlen(text);
+        snprintf(text + length, sizeof text - length, " m sphere s%d 0 0 4 %g 0 0 1", i, 0.03 * i);
+    }
+    graze_scene *scene = scene_from_text(text);
+    assert_non_null(scene);
+    const mist_medium nothing = {0};
+    mist_walk walk;
+    mist_span spans[4];
+    int count = 0;
+    mist_walk_begin(&walk, scene, &nothing, vec3_make(-3, 0, 0), vec3_make(1, 0, 0), 10);
+    while (count < 4 && mist_walk_next(&walk, &spans[count]))
+        count++;
+    graze_scene_destroy(scene);
+    assert_int_equal(count, 3);
+    assert_true(fabs(spans[1].start - 2) < 1e-12);
+    assert_true(fabs(spans[1].end - 6.97) < 1e-12);
+    assert_true(spans[1].medium.extinction.r == 0.1);
+    assert_true(spans[2].medium.extinction.r == 0);
+    assert_true(spans[2].end == 10);
+}
+
 /* Without mist the same bytes come out, whatever mist would do. */
 static void no_mist_changes_nothing(void **state) {
     (void)state;
@@ -199,9 +227,13 @@ static void no_mist_changes_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_is_attenuated),     cmocka_unit_test(lamps_are_scattered),
-        cmocka_unit_test(the_sun_is_scattered),    cmocka_unit_test(lights_that_two_mists_name),
-        cmocka_unit_test(things_shade_mist),       cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(light_is_attenuated),
+        cmocka_unit_test(lamps_are_scattered),
+        cmocka_unit_test(the_sun_is_scattered),
+        cmocka_unit_test(lights_that_two_mists_name),
+        cmocka_unit_test(things_shade_mist),
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(overlapping_bodies_are_one_span),
         cmocka_unit_test(no_mist_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
