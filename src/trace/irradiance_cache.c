@@ -17,7 +17,7 @@ enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 
 
 /* A cell's edge is at most this part of the distance that a path comes from, at an error of 0.03 and more; of smaller
  * errors, a smaller one, so that what cells get wrong by being as large as they are stays small beside them: about a
- * thousandth of the value at the largest part. */
+ * thousandth of the value at the largest part, and half a hundredth where that bends most. */
 #define LARGEST_PART  0.25
 #define PART_OF_ERROR (LARGEST_PART / 0.03)
 
@@ -41,11 +41,27 @@ enum { CACHES = 2, CELL_PARTS = IRRADIANCE_PARTS / CACHES, PATHS_PER_PILOT = 16 
 /* Coordinates in edges of cells beyond which these cannot be told apart. */
 #define LARGEST_PLACE 0x1p50
 
+/* Half of a cell's paths, a sequence of its own; the other half decides how many they are (trace/estimate.h says why).
+ * Parts are runs of equal length in it. */
+enum { HALVES = 2, HALF_PARTS = CELL_PARTS / HALVES };
+
+/* Where in a cell, from its middle, in edges; the axis that a normal is nearest to does not count. */
+typedef struct cell_place {
+    double x, y;
+} cell_place;
+
+/* How irradiance changes over a cell, as a half has found. */
+typedef struct cell_slope {
+    cell_place middle; /* of the half's paths */
+    rgb x, y;          /* per edge */
+} cell_slope;
+
 typedef struct cell {
     uint64_t key;
     size_t first, count; /* among the sorted records */
     bool whole;          /* all are in one place */
     rgb irradiance[CELL_PARTS];
+    cell_slope slopes[HALVES];
 } cell;
 
 /* What a path has come to, by cell. */
@@ -74,10 +90,14 @@ static uint64_t mixed(uint64_t a, uint64_t b) {
     return x ^ x >> 32;
 }
 
+static int main_axis(vec3 n) {
+    double ax = fabs(n.x), ay = fabs(n.y), az = fabs(n.z);
+    return ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+}
+
 /* Normals in one of 24 bins. */
 static uint64_t normal_bin(vec3 n) {
-    double ax = fabs(n.x), ay = fabs(n.y), az = fabs(n.z);
-    uint64_t axis = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+    uint64_t axis = (uint64_t)main_axis(n);
     uint64_t signs = (uint64_t)(n.x < -1e-9) | (uint64_t)(n.y < -1e-9) << 1 | (uint64_t)(n.z < -1e-9) << 2;
     return axis << 3 | signs;
 }
@@ -107,11 +127,31 @@ static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, co
     return mixed(key, normal_bin(record->normal));
 }
 
+static cell_place place_of(const irradiance_cache *cache, const half_cache *half, const irradiance_record *record) {
+    vec3 at = vec3_add_scaled(half->offset, 1 / cell_edge(cache, record->distance), record->point);
+    double x = at.x - floor(at.x) - 0.5, y = at.y - floor(at.y) - 0.5, z = at.z - floor(at.z) - 0.5;
+    int axis = main_axis(record->normal);
+    return (cell_place){axis == 0 ? y : x, axis == 2 ? y : z};
+}
+
 static const cell *cell_of(const half_cache *half, uint64_t key) {
     for (size_t i = key & half->table_mask; half->table[i] != 0; i = (i + 1) & half->table_mask)
         if (half->cells[half->table[i] - 1].key == key)
             return &half->cells[half->table[i] - 1];
     return NULL;
+}
+
+static double limited(double change, double mean) {
+    double limit = fmax(mean, 0);
+    return fmax(fmin(change, limit), -limit);
+}
+
+/* A part's irradiance at a place. What is more than twice its mean, or less than nothing, no slope tells. */
+static rgb irradiance_at(const cell *c, int part, cell_place at) {
+    const cell_slope *s = &c->slopes[part / HALF_PARTS];
+    rgb mean = c->irradiance[part];
+    rgb change = rgb_add_scaled(rgb_scale(at.x - s->middle.x, s->x), at.y - s->middle.y, s->y);
+    return rgb_add(mean, (rgb){limited(change.r, mean.r), limited(change.g, mean.g), limited(change.b, mean.b)});
 }
 
 bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_record *record,
@@ -120,8 +160,9 @@ bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_recor
         const cell *c = cell_of(&cache->halves[i], key_of(cache, &cache->halves[i], record));
         if (!c)
             return false;
+        cell_place at = place_of(cache, &cache->halves[i], record);
         for (int k = 0; k < CELL_PARTS; k++)
-            found[i * CELL_PARTS + k] = c->irradiance[k];
+            found[i * CELL_PARTS + k] = irradiance_at(c, k, at);
     }
     return true;
 }
@@ -197,20 +238,37 @@ static bool is_in_one_place(const filling *f, const cell *c) {
     return true;
 }
 
-/* Half of a cell's paths, a sequence of its own; the other half decides how many they are (trace/estimate.h says why).
- * Parts are runs of equal length in it. */
-enum { HALVES = 2, HALF_PARTS = CELL_PARTS / HALVES };
+/* Sums over paths from places in a cell. */
+typedef struct place_sums {
+    double x, y, xx, xy, yy;
+    rgb x_value, y_value;
+    double x_brightness, y_brightness;
+} place_sums;
+
 typedef struct half_cell {
     uint64_t key;
     size_t taken;
     rgb sum[HALF_PARTS];
     double brightness, squares; /* sums of all */
+    place_sums places;
 } half_cell;
 
 /* Ends in the golden section's order: however many, they are evenly spread over all of a cell's. */
 static const irradiance_record *record_at(const filling *f, const cell *c, size_t number) {
     size_t index = (size_t)(even_step((double)number, GOLDEN_SECTION) * (double)c->count);
     return &f->records[c->first + (index < c->count ? index : 0)].record;
+}
+
+static void add_place(place_sums *s, cell_place at, rgb value, double brightness) {
+    s->x += at.x;
+    s->y += at.y;
+    s->xx += at.x * at.x;
+    s->xy += at.x * at.y;
+    s->yy += at.y * at.y;
+    s->x_value = rgb_add_scaled(s->x_value, at.x, value);
+    s->y_value = rgb_add_scaled(s->y_value, at.y, value);
+    s->x_brightness += at.x * brightness;
+    s->y_brightness += at.y * brightness;
 }
 
 static void take_path(const filling *f, const irradiance_record *from, path_memory *memory, half_cell *h, int part) {
@@ -226,6 +284,7 @@ static void take_path(const filling *f, const irradiance_record *from, path_memo
     h->sum[part] = rgb_add(h->sum[part], value);
     h->brightness += brightness;
     h->squares += brightness * brightness;
+    add_place(&h->places, place_of(f->cache, f->half, from), value, brightness);
 }
 
 static void take_until(const filling *f, const cell *c, path_memory *memory, half_cell halves[HALVES], int half,
@@ -246,6 +305,31 @@ static bool is_enough(const filling *f, const cell *c, const half_cell *judge, s
     if (all < PATHS_BELIEVED && all * mean < FEWEST_PATHS * floor)
         return false;
     return variance <= allowed * allowed * all;
+}
+
+/* Added to the places' variance, which is 1/12 where they fill the cell: no slope is read off a spot or a line. */
+#define PLACE_VARIANCE 0.005
+
+/* Lays a plane through a half's paths by least squares, and takes as much of its slope as their scatter lets believe
+ * (as James and Stein shrink means). A mean alone would bring light from a cell's bright side to its dark one, and
+ * what is dark would be too bright by it. */
+static cell_slope find_slope(const half_cell *h) {
+    const place_sums *s = &h->places;
+    double n = (double)h->taken, x = s->x / n, y = s->y / n;
+    rgb value = {0, 0, 0};
+    for (int k = 0; k < HALF_PARTS; k++)
+        value = rgb_add(value, h->sum[k]);
+    double xx = s->xx / n - x * x + PLACE_VARIANCE, yy = s->yy / n - y * y + PLACE_VARIANCE, xy = s->xy / n - x * y;
+    double bx = (s->x_brightness - x * h->brightness) / n, by = (s->y_brightness - y * h->brightness) / n;
+    double determinant = xx * yy - xy * xy;
+    double told = n * (yy * bx * bx - 2 * xy * bx * by + xx * by * by) / determinant;
+    double rest = fmax(h->squares - h->brightness * h->brightness / n - told, 0) / (n - 3);
+    double believed = told > 2 * rest ? (1 - 2 * rest / told) / determinant : 0;
+    rgb vx = rgb_scale(believed / n, rgb_add_scaled(s->x_value, -x, value));
+    rgb vy = rgb_scale(believed / n, rgb_add_scaled(s->y_value, -y, value));
+    return (cell_slope){.middle = {x, y},
+                        .x = rgb_add_scaled(rgb_scale(yy, vx), -xy, vy),
+                        .y = rgb_add_scaled(rgb_scale(xx, vy), -xy, vx)};
 }
 
 static void fill_cell(void *user, size_t index, int worker) {
@@ -273,6 +357,8 @@ static void fill_cell(void *user, size_t index, int worker) {
         const half_cell *h = &halves[k / HALF_PARTS];
         c->irradiance[k] = rgb_scale((double)HALF_PARTS / (double)h->taken, h->sum[k % HALF_PARTS]);
     }
+    for (int i = 0; i < HALVES; i++)
+        c->slopes[i] = find_slope(&halves[i]);
 }
 
 static bool make_table(half_cache *half) {
