@@ -16,7 +16,7 @@ enum { PATHS_PER_PILOT = 16 };
 
 /* A cell's edge is at most this part of the distance that a path comes from, at an error of 0.03 and more; of smaller
  * errors, a smaller one, so that what cells get wrong by being as large as they are stays small beside them: about a
- * thousandth of the value at the largest part. */
+ * thousandth of the value at the largest part, and half a hundredth where that bends most. */
 #define LARGEST_PART  0.25
 #define PART_OF_ERROR (LARGEST_PART / 0.03)
 
@@ -47,10 +47,14 @@ static uint64_t mixed(uint64_t a, uint64_t b) {
     return x ^ x >> 32;
 }
 
+static int main_axis(vec3 n) {
+    double ax = fabs(n.x), ay = fabs(n.y), az = fabs(n.z);
+    return ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+}
+
 /* Normals in one of 24 bins. */
 static uint64_t normal_bin(vec3 n) {
-    double ax = fabs(n.x), ay = fabs(n.y), az = fabs(n.z);
-    uint64_t axis = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+    uint64_t axis = (uint64_t)main_axis(n);
     uint64_t signs = (uint64_t)(n.x < -1e-9) | (uint64_t)(n.y < -1e-9) << 1 | (uint64_t)(n.z < -1e-9) << 2;
     return axis << 3 | signs;
 }
@@ -73,6 +77,15 @@ static uint64_t key_of(const irradiance_cache *cache, const half_cache *half, co
     return mixed(key, normal_bin(record->normal));
 }
 
+static irradiance_place place_of(const irradiance_cache *cache, const half_cache *half,
+                                 const irradiance_record *record) {
+    double edge = irradiance_cell_edge(cache->part, record->distance);
+    vec3 at = vec3_add_scaled(half->offset, 1 / edge, record->point);
+    double x = at.x - floor(at.x) - 0.5, y = at.y - floor(at.y) - 0.5, z = at.z - floor(at.z) - 0.5;
+    int axis = main_axis(record->normal);
+    return (irradiance_place){axis == 0 ? y : x, axis == 2 ? y : z};
+}
+
 static const irradiance_cell *cell_of(const half_cache *half, uint64_t key) {
     for (size_t i = key & half->table_mask; half->table[i] != 0; i = (i + 1) & half->table_mask)
         if (half->cells[half->table[i] - 1].key == key)
@@ -86,8 +99,9 @@ bool irradiance_cache_find(const irradiance_cache *cache, const irradiance_recor
         const irradiance_cell *c = cell_of(&cache->halves[i], key_of(cache, &cache->halves[i], record));
         if (!c)
             return false;
+        irradiance_place at = place_of(cache, &cache->halves[i], record);
         for (int k = 0; k < IRRADIANCE_CELL_PARTS; k++)
-            found[i * IRRADIANCE_CELL_PARTS + k] = c->irradiance[k];
+            found[i * IRRADIANCE_CELL_PARTS + k] = irradiance_cell_at(c, k, at);
     }
     return true;
 }
@@ -116,7 +130,12 @@ static void follow_pilot(void *user, size_t index, int worker) {
         sampler points = sampler_start(key, (uint32_t)i);
         path_sample unused;
         path_radiance(&context, &first, &points, &unused);
-        r->key = r->record.surface < 0 ? NO_KEY : key_of(p->cache, &p->cache->halves[p->half], &r->record);
+        if (r->record.surface < 0) {
+            r->key = NO_KEY;
+            continue;
+        }
+        r->key = key_of(p->cache, &p->cache->halves[p->half], &r->record);
+        r->place = place_of(p->cache, &p->cache->halves[p->half], &r->record);
     }
 }
 

@@ -3,8 +3,8 @@
  * A pixel's diffusely reflected light comes from all about it. Which of it arrives from where decides the pixel's
  * error; what exactly one bright wall gets from all others hardly does, and is the same question for all pixels that
  * see the wall. So it is answered once, by paths from points that a few pilot paths have come to, and paths that come
- * there end. Cells are small as seen from where a path comes, and where few pilot paths have been, there is none, and
- * the path goes on.
+ * there end. A cell tells how it slopes, too. Cells are small as seen from where a path comes, and where few pilot
+ * paths have been, there is none, and the path goes on.
  *
  * There are two caches in one, of independent pilot paths and cells, and each cell has been answered four times, from
  * other points by other paths. Paths take the mean of all these parts; how much what they add up to differs tells how

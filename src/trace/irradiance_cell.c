@@ -40,52 +40,47 @@ static bool is_in_one_place(const irradiance_filling *f, const irradiance_cell *
     return true;
 }
 
-/* Half of a cell's paths, a sequence of its own; the other half decides how many they are (trace/estimate_half.h says
- * why). Parts are runs of equal length in it. */
-enum { HALVES = 2, HALF_PARTS = IRRADIANCE_CELL_PARTS / HALVES };
 typedef struct half_cell {
     uint64_t key;
     size_t taken;
-    rgb sum[HALF_PARTS];
-    double brightness, squares; /* sums of all */
+    rgb sum[IRRADIANCE_HALF_PARTS];
+    irradiance_place_sums all;
 } half_cell;
 
 /* Ends in the golden section's order: however many, they are evenly spread over all of a cell's. */
-static const irradiance_record *record_at(const irradiance_filling *f, const irradiance_cell *c, size_t number) {
+static const irradiance_end *end_at(const irradiance_filling *f, const irradiance_cell *c, size_t number) {
     size_t index = (size_t)(even_step((double)number, GOLDEN_SECTION) * (double)c->count);
-    return &f->records[c->first + (index < c->count ? index : 0)].record;
+    return &f->records[c->first + (index < c->count ? index : 0)];
 }
 
-static void take_path(const irradiance_filling *f, const irradiance_record *from, path_memory *memory, half_cell *h,
+static void take_path(const irradiance_filling *f, const irradiance_end *from, path_memory *memory, half_cell *h,
                       int part) {
     path_context context = *f->context;
     context.memory = memory;
     sampler points = sampler_start(h->key, (uint32_t)h->taken++);
     path_sample sample;
-    path_irradiance_at(&context, from, &points, &sample);
+    path_irradiance_at(&context, &from->record, &points, &sample);
     rgb value = sample.radiance;
     for (int k = 0; k < sample.control_count; k++)
         value = rgb_add(value, sample.controls[k].difference);
-    double brightness = rgb_brightness(value);
     h->sum[part] = rgb_add(h->sum[part], value);
-    h->brightness += brightness;
-    h->squares += brightness * brightness;
+    irradiance_add_place(&h->all, from->place, value);
 }
 
 static void take_until(const irradiance_filling *f, const irradiance_cell *c, path_memory *memory,
-                       half_cell halves[HALVES], int half, size_t goal) {
+                       half_cell halves[IRRADIANCE_HALVES], int half, size_t goal) {
     half_cell *h = &halves[half];
-    size_t first = h->taken, run = (goal - first) / HALF_PARTS;
+    size_t first = h->taken, run = (goal - first) / IRRADIANCE_HALF_PARTS;
     for (size_t i = first; i < goal; i++)
-        take_path(f, record_at(f, c, i * HALVES + (size_t)half), memory, h, (int)((i - first) / run));
+        take_path(f, end_at(f, c, i * IRRADIANCE_HALVES + (size_t)half), memory, h, (int)((i - first) / run));
 }
 
 /* Whether so many paths of a half are enough, as the other finds. */
 static bool is_enough(const irradiance_filling *f, const irradiance_cell *c, const half_cell *judge, size_t taken) {
     const graze_trace_settings *s = f->context->settings;
-    double count = (double)judge->taken, mean = judge->brightness / count, floor = PI * s->floor;
-    double variance = fmax(judge->squares - mean * judge->brightness, 0) / (count - 1);
-    double seen = fmin(sqrt(OFTEN_SEEN / (double)c->count), 1), all = (double)taken * HALVES;
+    double count = (double)judge->taken, mean = judge->all.brightness / count, floor = PI * s->floor;
+    double variance = fmax(judge->all.squares - mean * judge->all.brightness, 0) / (count - 1);
+    double seen = fmin(sqrt(OFTEN_SEEN / (double)c->count), 1), all = (double)taken * IRRADIANCE_HALVES;
     double allowed = NOISE_OF_ERROR * s->error * seen * fmax(mean, floor);
     if (all < PATHS_BELIEVED && all * mean < FEWEST_PATHS * floor)
         return false;
@@ -98,20 +93,25 @@ void irradiance_cell_fill(const irradiance_filling *f, irradiance_cell *c) {
         return;
     path_memory memory;
     path_memory_begin(&memory, false);
-    half_cell halves[HALVES] = {{.taken = 0}, {.taken = 0}};
-    for (int i = 0; i < HALVES; i++)
-        halves[i].key = sampler_key(f->context->settings->seed, c->key, 0x2000000u + f->number * HALVES + (uint32_t)i);
-    bool enough[HALVES] = {false, false};
+    half_cell halves[IRRADIANCE_HALVES] = {{.taken = 0}, {.taken = 0}};
+    for (int i = 0; i < IRRADIANCE_HALVES; i++)
+        halves[i].key =
+            sampler_key(f->context->settings->seed, c->key, 0x2000000u + f->number * IRRADIANCE_HALVES + (uint32_t)i);
+    bool enough[IRRADIANCE_HALVES] = {false, false};
     size_t most = PATHS_OF_PILOT * c->count > MOST_PATHS ? PATHS_OF_PILOT * c->count : MOST_PATHS;
-    for (size_t goal = FEWEST_PATHS / HALVES; goal <= most / HALVES && !(enough[0] && enough[1]); goal *= 2) {
-        for (int i = 0; i < HALVES; i++)
+    for (size_t goal = FEWEST_PATHS / IRRADIANCE_HALVES; goal <= most / IRRADIANCE_HALVES && !(enough[0] && enough[1]);
+         goal *= 2) {
+        for (int i = 0; i < IRRADIANCE_HALVES; i++)
             if (!enough[i])
                 take_until(f, c, &memory, halves, i, goal);
-        for (int i = 0; i < HALVES; i++)
+        for (int i = 0; i < IRRADIANCE_HALVES; i++)
             enough[i] = enough[i] || is_enough(f, c, &halves[1 - i], halves[i].taken);
     }
     for (int k = 0; k < IRRADIANCE_CELL_PARTS; k++) {
-        const half_cell *h = &halves[k / HALF_PARTS];
-        c->irradiance[k] = rgb_scale((double)HALF_PARTS / (double)h->taken, h->sum[k % HALF_PARTS]);
+        const half_cell *h = &halves[k / IRRADIANCE_HALF_PARTS];
+        c->irradiance[k] =
+            rgb_scale((double)IRRADIANCE_HALF_PARTS / (double)h->taken, h->sum[k % IRRADIANCE_HALF_PARTS]);
     }
+    for (int i = 0; i < IRRADIANCE_HALVES; i++)
+        c->slopes[i] = irradiance_find_slope(&halves[i].all, halves[i].taken);
 }

@@ -56,11 +56,11 @@ static irradiance_cache *build(view *v, int threads) {
     return cache;
 }
 
-static irradiance_record come_to(const view *v, size_t pixel, uint32_t number) {
+static irradiance_record come_to(const view *v, irradiance_pilot *first_of, size_t pixel, uint32_t number) {
     irradiance_record record = {.surface = -1};
     path_context context = v->context;
     context.record = &record;
-    path_hit first = look((void *)v, pixel);
+    path_hit first = first_of((void *)v, pixel);
     sampler points = sampler_start(sampler_key(99, pixel, 0), number);
     path_sample unused;
     path_radiance(&context, &first, &points, &unused);
@@ -75,7 +75,7 @@ static void threads_do_not_change_what_is_found(void **state) {
     irradiance_cache *one = build(&v, 1), *three = build(&v, 3);
     int come = 0, found = 0;
     for (size_t pixel = 0; pixel < PILOTS; pixel++) {
-        irradiance_record record = come_to(&v, pixel, 0);
+        irradiance_record record = come_to(&v, look, pixel, 0);
         rgb a[IRRADIANCE_PARTS], b[IRRADIANCE_PARTS];
         if (record.surface < 0)
             continue;
@@ -240,6 +240,89 @@ static void walls_divide_cells(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* A dark room beside a lit one: light comes through a hole in the wall, 40 by 80 cm. */
+static const char dark_room[] = "void plastic white 0 0 5 .7 .7 .7 0 0\n"
+                                "void light lamp 0 0 3 300 300 300\n"
+                                "white polygon floor 0 0 12 0 0 0 8.1 0 0 8.1 4 0 0 4 0\n"
+                                "white polygon top 0 0 12 0 0 3 0 4 3 8.1 4 3 8.1 0 3\n"
+                                "white polygon south 0 0 12 0 0 0 0 0 3 8.1 0 3 8.1 0 0\n"
+                                "white polygon north 0 0 12 0 4 0 8.1 4 0 8.1 4 3 0 4 3\n"
+                                "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
+                                "white polygon east 0 0 12 8.1 0 0 8.1 0 3 8.1 4 3 8.1 4 0\n"
+                                "white polygon wall 0 0 30 4 0 0 4 0 3 4 4 3 4 4 0 4 2.2 0 4 2.2 1.8 4 1.8 1.8"
+                                " 4 1.8 1 4 2.2 1 4 2.2 0\n"
+                                "lamp polygon la 0 0 12 1.5 1.5 2.99 1.5 2.5 2.99 2.5 2.5 2.99 2.5 1.5 2.99\n";
+
+static path_hit look_aside(void *user, size_t index) {
+    const view *v = user;
+    double x = ((double)(index % SIDE) + 0.5) / SIDE - 0.5, y = ((double)(index / SIDE) + 0.5) / SIDE - 0.5;
+    vec3 direction = vec3_normalize((vec3){0.7 + 1.2 * x, 0.7 - 1.2 * x, -0.1 + 1.7 * y});
+    return path_cast(&v->context, (vec3){4.4, 0.3, 1.6}, direction, GEOMETRY_FAR, -1);
+}
+
+/* Irradiance at a point, by this many paths. */
+static double irradiance_by_paths(const view *v, const irradiance_record *record, uint64_t key, uint32_t count) {
+    path_memory memory = {.alike = false};
+    path_context context = v->context;
+    context.memory = &memory;
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        sampler points = sampler_start(key, i);
+        path_sample sample;
+        path_irradiance_at(&context, record, &points, &sample);
+        sum += sample.radiance.g;
+        for (int k = 0; k < sample.control_count; k++)
+            sum += sample.controls[k].difference.g;
+    }
+    return sum / count;
+}
+
+/* A point that paths come to, and what it gets: by two answers, one of which tells whether it is dark. */
+typedef struct known_point {
+    irradiance_record record;
+    double value, other;
+} known_point;
+
+static size_t find_points(const view *v, known_point points[PILOTS]) {
+    size_t count = 0;
+    for (size_t pixel = 0; pixel < PILOTS; pixel++) {
+        irradiance_record record = come_to(v, look_aside, pixel, 0);
+        if (record.surface >= 0)
+            points[count++] = (known_point){record, irradiance_by_paths(v, &record, sampler_key(7, pixel, 0), 256),
+                                            irradiance_by_paths(v, &record, sampler_key(8, pixel, 0), 256)};
+    }
+    return count;
+}
+
+/* Cells whose means stood for all of each made dark places 4 % too bright here. A cache's noise in their mean is about
+ * 0.3 %. */
+static void what_is_dark_stays_dark(void **state) {
+    (void)state;
+    static known_point points[PILOTS];
+    graze_trace_settings settings = bounces(3);
+    settings.floor = 0.001;
+    graze_scene *scene = scene_from_text(dark_room);
+    view v = {{.scene = scene, .settings = &settings}};
+    size_t count = find_points(&v, points), dark = 0;
+    double told = 0, true_sum = 0;
+    for (settings.seed = 0; settings.seed < 4; settings.seed++) {
+        irradiance_cache *cache;
+        assert_int_equal(irradiance_cache_build(&cache, &v.context, look_aside, &v, PILOTS, 2, NULL), GRAZE_OK);
+        for (size_t i = 0; i < count; i++) {
+            rgb found[IRRADIANCE_PARTS];
+            if (points[i].other > 0.3 || !irradiance_cache_find(cache, &points[i].record, found))
+                continue;
+            dark++;
+            told += mean_of(found);
+            true_sum += points[i].value;
+        }
+        irradiance_cache_destroy(cache);
+    }
+    assert_true(dark > count);
+    assert_true(fabs(told / true_sum - 1) < 0.02);
+    graze_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_do_not_change_what_is_found),
@@ -247,6 +330,7 @@ int main(void) {
         cmocka_unit_test(there_is_none_where_it_is_of_no_use),
         cmocka_unit_test(cells_are_where_paths_have_been),
         cmocka_unit_test(walls_divide_cells),
+        cmocka_unit_test(what_is_dark_stays_dark),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
