@@ -4,11 +4,14 @@
 
 #include "rad/scene_file.h"
 
-/* Of one colour, and of a pattern on one: more, though it is no use even for pictures of nonsense, would let the
- * squares of radiances overflow. */
+/* Of one colour in a scene, and of a pattern on one: more, though it is no use even for pictures of nonsense, would let
+ * the squares of radiances overflow. */
 #define MATERIAL_LARGEST_AMOUNT 1e10
 
-/* Whether the first `count` real arguments are at least 0 and at most MATERIAL_LARGEST_AMOUNT; reported. */
-graze_status material_check_amounts(const rad_primitive *, uint32_t count, const graze_report *);
+/* Whether none of the first `count` real arguments is negative; reported. */
+graze_status material_check_signs(const rad_primitive *, uint32_t count, const graze_report *);
+
+/* Whether none of them is above MATERIAL_LARGEST_AMOUNT; reported. */
+graze_status material_check_largest(const rad_primitive *, uint32_t count, const graze_report *);
 
 #endif

@@ -31,7 +31,7 @@ static graze_status check_reals(const rad_primitive *p, uint32_t count, uint32_t
                                 const graze_report *report) {
     graze_status status = check_count(p, count, report);
     if (status == GRAZE_OK)
-        status = material_check_amounts(p, p->real_count, report);
+        status = material_check_signs(p, p->real_count, report);
     for (uint32_t i = 4; i < 4 + roughnesses && status == GRAZE_OK; i++)
         if (p->reals[i] > GRAZE_ROUGHNESS_MAX)
             status = report_roughness(p, p->reals[i], report);
@@ -140,7 +140,7 @@ static rgb take_transmissivity(const rad_primitive *p, uint32_t first, const gra
 static graze_status read_glass(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = p->real_count == 4 ? GRAZE_OK : check_count(p, 3, report);
     if (status == GRAZE_OK)
-        status = material_check_amounts(p, p->real_count, report);
+        status = material_check_signs(p, p->real_count, report);
     if (status != GRAZE_OK)
         return status;
     double index = p->real_count == 4 ? p->reals[3] : GLASS_INDEX;
@@ -163,7 +163,7 @@ static graze_status check_index(const rad_primitive *p, double index, const graz
 static graze_status read_dielectric(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 5, report);
     if (status == GRAZE_OK)
-        status = material_check_amounts(p, 3, report);
+        status = material_check_signs(p, 3, report);
     if (status != GRAZE_OK)
         return status;
     double index = p->reals[3] + p->reals[4] / MEAN_WAVELENGTH;
@@ -181,7 +181,7 @@ static graze_status read_dielectric(graze_material *m, const rad_primitive *p, c
 static graze_status read_interface(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 8, report);
     if (status == GRAZE_OK)
-        status = material_check_amounts(p, p->real_count, report);
+        status = material_check_signs(p, p->real_count, report);
     if (status == GRAZE_OK)
         status = check_index(p, p->reals[3], report);
     if (status == GRAZE_OK)
@@ -207,7 +207,7 @@ static double roughness_of(double power) {
 static graze_status read_ashik2(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 8, report);
     if (status == GRAZE_OK)
-        status = material_check_amounts(p, p->real_count, report);
+        status = material_check_signs(p, p->real_count, report);
     if (status != GRAZE_OK)
         return status;
     const double *a = p->reals;
@@ -233,7 +233,7 @@ static graze_status read_ashik2(graze_material *m, const rad_primitive *p, const
 static graze_status read_mirror(graze_material *m, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_count(p, 3, report);
     if (status == GRAZE_OK)
-        status = material_check_amounts(p, p->real_count, report);
+        status = material_check_signs(p, p->real_count, report);
     if (status != GRAZE_OK)
         return status;
     if (p->string_count > 1)

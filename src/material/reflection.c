@@ -29,7 +29,9 @@ bool material_reflects_by_function(rad_type type) {
 /* `red green blue specularity`, and of those that transmit `transmission transmitted-specularity`. */
 static graze_status take_shares(material_reflection *r, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    graze_status status = material_check_amounts(p, transmits(p->type) ? 6 : 4, report);
+    graze_status status = material_check_signs(p, transmits(p->type) ? 6 : 4, report);
+    if (!status)
+        status = material_check_largest(p, 3, report);
     if (status)
         return status;
     if (a[3] > 1)
@@ -83,7 +85,9 @@ static graze_status compile_function(material_reflection *r, material_library *l
 /* Nine reals are diffuse colours of the front, of the back, and of what comes through. */
 static graze_status take_colors(material_reflection *r, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    graze_status status = material_check_amounts(p, 9, report);
+    graze_status status = material_check_signs(p, 9, report);
+    if (!status)
+        status = material_check_largest(p, 9, report);
     if (status)
         return status;
     const rgb front = {a[0], a[1], a[2]}, back = {a[3], a[4], a[5]}, through = {a[6], a[7], a[8]};

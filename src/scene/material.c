@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "material/amounts.h"
 #include "material/from_primitive.h"
 #include "scene/builder.h"
 #include "scene/emitter.h"
@@ -201,6 +202,8 @@ static graze_status read_mirror(scene_builder *b, scene_material *material, cons
 static graze_status read_reflector(scene_builder *b, scene_material *material, const rad_primitive *p) {
     material->kind = material_orients_by_function(p) ? SCENE_ORIENTED : SCENE_REFLECTOR;
     graze_status status = material_from_primitive(&material->reflector, p, b->report);
+    if (!status)
+        status = material_check_largest(p, p->real_count, b->report);
     material->reflector.model = scene_choose_model(b->settings, p);
     if (!status && p->type == RAD_MIRROR && p->string_count > 0)
         return read_mirror(b, material, p);

@@ -36,6 +36,8 @@ static void surfaces_need_a_material(void **state) {
 static void lights_are_checked(void **state) {
     (void)state;
     assert_refused("void light l 0 0 3 1 -1 1 l sphere s 0 0 4 0 0 0 1\n", "light l", "negative");
+    assert_refused("void plastic p 0 0 5 1 1e11 1 0 0 p sphere s 0 0 4 0 0 0 1\n", "plastic p",
+                   "real argument 2 is above 1e10");
     assert_refused("void spotlight l 0 0 7 1 1 1 0 0 0 1 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "angle");
     assert_refused("void spotlight l 0 0 7 1 1 1 10 0 0 0 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "null");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 0 1\n", "source s", "direction");
