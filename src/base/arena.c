@@ -5,11 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/large_memory.h"
-
-/* Blocks grow with the arena up to BLOCK_LARGEST, a large page; a piece too large to share a block gets one of its own.
- */
-enum { BLOCK_SMALLEST = 4096, BLOCK_LARGEST = 1 << 21 };
+/* Blocks grow with the arena up to BLOCK_LARGEST; a piece too large to share a block gets one of its own. */
+enum { BLOCK_SMALLEST = 4096, BLOCK_LARGEST = 1 << 20 };
 
 typedef struct block {
     struct block *next;
@@ -20,7 +17,7 @@ struct arena {
     block *blocks;   /* all of them, to be freed */
     char *free;      /* of the block that small pieces come from */
     size_t left;     /* bytes at `free` */
-    size_t capacity; /* of the next such block, its head included */
+    size_t capacity; /* of the next such block */
 };
 
 arena *arena_create(void) {
@@ -49,9 +46,8 @@ void arena_absorb(arena *a, arena *other) {
     free(other);
 }
 
-/* Of so many bytes, its head included. */
 static void *add_block(arena *a, size_t size) {
-    block *b = large_memory_unset(size);
+    block *b = malloc(sizeof *b + size);
     if (!b)
         return NULL;
     b->next = a->blocks;
@@ -68,12 +64,12 @@ void *arena_allocate(arena *a, size_t size) {
     size = size ? (size + unit - 1) / unit * unit : unit;
     if (size > a->left) {
         if (size > a->capacity / 4)
-            return add_block(a, sizeof(block) + size);
+            return add_block(a, size);
         char *fresh = add_block(a, a->capacity);
         if (!fresh)
             return NULL;
         a->free = fresh;
-        a->left = a->capacity - sizeof(block);
+        a->left = a->capacity;
         if (a->capacity < BLOCK_LARGEST)
             a->capacity *= 2;
     }

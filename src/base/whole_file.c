@@ -8,8 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/large_memory.h"
-
 /* What can be told of the size beforehand, so that large files are read in one piece. */
 static size_t expected_size(int descriptor) {
     struct stat facts;
@@ -35,8 +33,7 @@ static graze_status grow(whole_file *text, size_t capacity, const graze_report *
 static graze_status read_all(whole_file *text, int descriptor, const char *name, const place *where,
                              const graze_report *report) {
     size_t capacity = expected_size(descriptor) + 4096;
-    text->bytes = large_memory_unset(capacity);
-    graze_status status = text->bytes ? GRAZE_OK : report_out_of_memory(report);
+    graze_status status = grow(text, capacity, report);
     while (!status) {
         ssize_t got = read(descriptor, text->bytes + text->length, capacity - text->length - 1);
         if (got < 0 && errno == EINTR)

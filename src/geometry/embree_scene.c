@@ -247,8 +247,7 @@ static bool is_large(const geometry *g) {
 static RTCDevice make_device(const geometry *g, int threads) {
     char settings[64];
     bool large = is_large(g);
-    snprintf(settings, sizeof settings, "threads=%d,set_affinity=0,hugepages=%d", large && threads > 1 ? threads : 1,
-             large);
+    snprintf(settings, sizeof settings, "threads=%d,set_affinity=0,hugepages=0", large && threads > 1 ? threads : 1);
     return rtcNewDevice(settings);
 }
 

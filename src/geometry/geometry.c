@@ -4,7 +4,6 @@
 #include <limits.h>
 #include <stdlib.h>
 
-#include "base/large_memory.h"
 #include "geometry/embree_scene.h"
 
 /* Numbers the surfaces of copies; false where there are more than numbers. */
@@ -21,7 +20,7 @@ static bool number_surfaces(const geometry *g, geometry_tree *tree) {
 }
 
 static bool allocate_surfaces(geometry_tree *tree) {
-    tree->triangles = large_memory_unset((tree->triangle_count + 1) * sizeof *tree->triangles);
+    tree->triangles = aligned_alloc(64, (tree->triangle_count + 1) * sizeof *tree->triangles);
     tree->curved = malloc((tree->curved_count + 1) * sizeof *tree->curved);
     return tree->triangles && tree->curved;
 }

@@ -3,9 +3,7 @@
 #include "geometry/shaft_tree.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-#include "base/large_memory.h"
 #include "base/parallel.h"
 #include "geometry/shaft_split.h"
 
@@ -274,11 +272,9 @@ static bool graft_all(shaft_tree *tree, const branches *left) {
             return false;
         count += left->items[i].own.node_count;
     }
-    shaft_node *nodes = large_memory_unset(count * sizeof *nodes);
+    shaft_node *nodes = realloc(tree->nodes, count * sizeof *nodes);
     if (!nodes)
         return false;
-    memcpy(nodes, tree->nodes, trunk * sizeof *nodes);
-    free(tree->nodes);
     tree->nodes = nodes;
     tree->capacity = (uint32_t)count;
     for (size_t i = 0; i < left->count; i++)
@@ -312,7 +308,7 @@ static bool build_from(shaft_tree *tree, const shape *shapes, const enclosure *e
     tree->capacity = (uint32_t)fmin(2.0 * (double)count, 2 * FEW) + 2;
     tree->node_count = 1;
     tree->nodes = malloc(tree->capacity * sizeof *tree->nodes);
-    tree->order = large_memory_unset(count * sizeof *tree->order);
+    tree->order = malloc(count * sizeof *tree->order);
     if (!tree->nodes || !tree->order)
         return false;
     for (size_t i = 0; i < count; i++)
@@ -341,8 +337,8 @@ static void survey_block(void *user, size_t index, int worker) {
 
 bool shaft_tree_build(shaft_tree *tree, const shape *shapes, size_t count, vec3 lower, vec3 upper, int threads) {
     *tree = (shaft_tree){0};
-    item *items = large_memory_unset(2 * count * sizeof *items);
-    enclosure *enclosures = large_memory_unset(count * sizeof *enclosures);
+    item *items = malloc(2 * count * sizeof *items);
+    enclosure *enclosures = malloc(count * sizeof *enclosures);
     bool built = false;
     if (items && enclosures) {
         survey s = {shapes, count, lower, upper, items, enclosures};

@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include "base/large_memory.h"
 #include "base/parallel.h"
 
 /* Copies that hold something; their groups are known already. */
@@ -54,7 +53,7 @@ static void find_extent(const geometry *g, geometry_tree *tree, geometry_box all
 
 bool geometry_survey_make(const geometry *g, geometry_survey *s, int threads) {
     geometry_tree *tree = s->tree;
-    tree->reach = large_memory_unset((tree->shape_count + 1) * sizeof *tree->reach);
+    tree->reach = malloc((tree->shape_count + 1) * sizeof *tree->reach);
     tree->placed = malloc((tree->placement_count + 1) * sizeof *tree->placed);
     s->count = (tree->shape_count + GEOMETRY_BLOCK_SIZE - 1) / GEOMETRY_BLOCK_SIZE;
     s->blocks = malloc((s->count + 1) * sizeof *s->blocks);

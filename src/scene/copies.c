@@ -1,7 +1,6 @@
 /* What instances and meshes are copies of: surfaces that are there once. */
 #include <stdlib.h>
 
-#include "base/large_memory.h"
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
 
@@ -66,8 +65,8 @@ static void add_surface(scene_builder *b, scene_part *part, int primitive) {
 }
 
 static bool allocate_surfaces(scene_part *part, size_t count) {
-    part->shapes = large_memory(count + 1, sizeof *part->shapes);
-    part->surfaces = large_memory(count + 1, sizeof *part->surfaces);
+    part->shapes = calloc(count + 1, sizeof *part->shapes);
+    part->surfaces = calloc(count + 1, sizeof *part->surfaces);
     return part->shapes && part->surfaces;
 }
 

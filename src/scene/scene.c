@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/angle.h"
-#include "base/large_memory.h"
 #include "geometry/shaft.h"
 #include "scene/ambient_choice.h"
 #include "scene/builder.h"
@@ -227,8 +226,8 @@ static graze_status allocate(scene_builder *b) {
     graze_scene *scene = b->scene;
     size_t surfaces = b->own_surfaces, modifiers = scene->primitive_count - surfaces;
     scene->memory = arena_create();
-    scene->shapes = large_memory(surfaces + 1, sizeof *scene->shapes);
-    scene->surfaces = large_memory(surfaces + 1, sizeof *scene->surfaces);
+    scene->shapes = calloc(surfaces + 1, sizeof *scene->shapes);
+    scene->surfaces = calloc(surfaces + 1, sizeof *scene->surfaces);
     scene->materials = calloc(modifiers + 1, sizeof *scene->materials); /* one may be void */
     scene->lights = calloc(scene->primitive_count + 1, sizeof *scene->lights);
     b->material_of = malloc((scene->primitive_count + 1) * sizeof *b->material_of);
