@@ -345,7 +345,8 @@ install: all
 	$(INSTALL) -m 644 LICENSE $(dest)/share/doc/graze
 	$(INSTALL) -d $(dest)/share/doc/graze/figures
 	$(INSTALL) -m 644 man/figures/README.md man/figures/*.png $(dest)/share/doc/graze/figures
-	$(INSTALL) -D -m 644 man/performance/README.md $(dest)/share/doc/graze/performance/README.md
+	$(INSTALL) -d $(dest)/share/doc/graze/performance
+	$(INSTALL) -m 644 man/performance/README.md man/performance/pictures.png $(dest)/share/doc/graze/performance
 
 # uninstall: remove what install put there
 uninstall:

@@ -14,3 +14,8 @@ graze_status material_check_largest(const rad_primitive *p, uint32_t count, cons
             return rad_primitive_error(report, p, "real argument %u is above 1e10", (unsigned)i + 1);
     return GRAZE_OK;
 }
+
+graze_status material_check_amounts(const rad_primitive *p, uint32_t count, const graze_report *report) {
+    graze_status status = material_check_signs(p, count, report);
+    return status ? status : material_check_largest(p, count, report);
+}

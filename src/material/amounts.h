@@ -14,4 +14,7 @@ graze_status material_check_signs(const rad_primitive *, uint32_t count, const g
 /* Whether none of them is above MATERIAL_LARGEST_AMOUNT; reported. */
 graze_status material_check_largest(const rad_primitive *, uint32_t count, const graze_report *);
 
+/* Both. */
+graze_status material_check_amounts(const rad_primitive *, uint32_t count, const graze_report *);
+
 #endif

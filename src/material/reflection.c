@@ -85,9 +85,7 @@ static graze_status compile_function(material_reflection *r, material_library *l
 /* Nine reals are diffuse colours of the front, of the back, and of what comes through. */
 static graze_status take_colors(material_reflection *r, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    graze_status status = material_check_signs(p, 9, report);
-    if (!status)
-        status = material_check_largest(p, 9, report);
+    graze_status status = material_check_amounts(p, 9, report);
     if (status)
         return status;
     const rgb front = {a[0], a[1], a[2]}, back = {a[3], a[4], a[5]}, through = {a[6], a[7], a[8]};

@@ -40,9 +40,7 @@ static bool may_be_smooth(const char *const *roughnesses) {
 
 static graze_status read_colors(material_wgmd *w, const rad_primitive *p, const graze_report *report) {
     const double *a = p->reals;
-    graze_status status = material_check_signs(p, 9, report);
-    if (!status)
-        status = material_check_largest(p, 9, report);
+    graze_status status = material_check_amounts(p, 9, report);
     if (status)
         return status;
     w->front = (rgb){a[0], a[1], a[2]};

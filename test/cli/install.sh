@@ -83,6 +83,7 @@ figures_complete() {
 check "the page of figures has all its pictures" figures_complete
 check "... and is where the manual says" grep -qF 'share/doc/graze/figures/README.md' "$root/share/man/man1/gpict.1"
 check "the page on accuracy and speed is there" has share/doc/graze/performance/README.md
+check "... and its plot" has share/doc/graze/performance/pictures.png
 for tool in "$BIN"/*; do
     check "$(basename "$tool") has a manual page" has "share/man/man1/$(basename "$tool").1"
 done

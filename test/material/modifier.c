@@ -2,7 +2,7 @@
 #include "material/modifier.h"
 
 #include "material/support.h"
-#include "support/written_file.h"
+#include "material/written_modifiers.h"
 
 /* A directory with the files that the scenes here name. */
 static int enter_directory(void **state) {
@@ -42,32 +42,21 @@ static int leave_directory(void **state) {
 
 /* A scene of modifiers, and the chain of the last of them. */
 typedef struct setting {
-    rad_scene *scene;
-    material_modifiers *modifiers;
+    written_modifiers of;
     material_chain chain;
     graze_status status;
 } setting;
 
 static setting setting_of(const char *text) {
-    setting s = {.scene = NULL};
-    written_file file = written_file_make(text, strlen(text));
-    const char *names[] = {file.name};
-    size_t count;
-    messages[0] = 0;
-    graze_status status = rad_scene_read(&s.scene, names, 1, &remembering);
-    unlink(file.name);
-    if (status)
+    setting s = {.of = written_modifiers_read(text)};
+    if (s.of.status)
         fail_msg("%s", messages);
-    const rad_primitive *primitives = rad_scene_primitives(s.scene, &count);
-    s.modifiers = material_modifiers_create(primitives, count, &remembering);
-    assert_non_null(s.modifiers);
-    s.status = material_chain_find(&s.chain, s.modifiers, (int)count - 1);
+    s.status = material_chain_find(&s.chain, s.of.modifiers, s.of.number);
     return s;
 }
 
 static void setting_end(setting *s) {
-    material_modifiers_destroy(s->modifiers);
-    rad_scene_destroy(s->scene);
+    written_modifiers_destroy(&s->of);
 }
 
 static material_ray ray_at(double x, double y, double z) {

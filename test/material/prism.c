@@ -2,36 +2,26 @@
 #include "material/prism.h"
 
 #include "material/support.h"
-#include "support/written_file.h"
+#include "material/written_modifiers.h"
 
 /* A scene of which the last primitive is a prism. */
 typedef struct setting {
-    rad_scene *scene;
-    material_modifiers *modifiers;
+    written_modifiers of;
     const material_prism *prism;
 } setting;
 
 static setting compiled(const char *text) {
-    setting s;
-    written_file file = written_file_make(text, strlen(text));
-    const char *names[] = {file.name};
-    size_t count;
-    messages[0] = 0;
-    graze_status status = rad_scene_read(&s.scene, names, 1, &remembering);
-    unlink(file.name);
-    assert_int_equal(status, GRAZE_OK);
-    const rad_primitive *primitives = rad_scene_primitives(s.scene, &count);
-    s.modifiers = material_modifiers_create(primitives, count, &remembering);
-    assert_non_null(s.modifiers);
-    status = material_prism_compile(&s.prism, material_modifiers_library(s.modifiers), &primitives[count - 1]);
+    setting s = {.of = written_modifiers_read(text)};
+    graze_status status = s.of.status;
+    if (!status)
+        status = material_prism_compile(&s.prism, material_modifiers_library(s.of.modifiers), s.of.last);
     if (status)
         fail_msg("%s: %s", text, messages);
     return s;
 }
 
 static void setting_end(setting *s) {
-    material_modifiers_destroy(s->modifiers);
-    rad_scene_destroy(s->scene);
+    written_modifiers_destroy(&s->of);
 }
 
 static const material_ray ray = {

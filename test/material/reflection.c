@@ -3,42 +3,31 @@
 
 #include "material/support.h"
 #include "material/wgmd.h"
-#include "support/written_file.h"
+#include "material/written_modifiers.h"
 
 /* A scene of one material, and what it is compiled to. */
 typedef struct setting {
-    rad_scene *scene;
-    material_modifiers *modifiers;
-    const rad_primitive *primitive;
+    written_modifiers of;
     const material_reflection *reflection;
     const material_wgmd *wgmd;
     graze_status status;
 } setting;
 
 static setting setting_of(const char *text) {
-    setting s = {.scene = NULL};
-    written_file file = written_file_make(text, strlen(text));
-    const char *names[] = {file.name};
-    size_t count;
-    messages[0] = 0;
-    s.status = rad_scene_read(&s.scene, names, 1, &remembering);
-    unlink(file.name);
+    setting s = {.of = written_modifiers_read(text)};
+    const written_modifiers *of = &s.of;
+    s.status = of->status;
     if (s.status)
         return s;
-    const rad_primitive *primitives = rad_scene_primitives(s.scene, &count);
-    s.primitive = &primitives[count - 1];
-    s.modifiers = material_modifiers_create(primitives, count, &remembering);
-    assert_non_null(s.modifiers);
-    if (s.primitive->type == RAD_WGMDFUNC)
-        s.status = material_wgmd_compile(&s.wgmd, s.modifiers, s.primitive);
+    if (of->last->type == RAD_WGMDFUNC)
+        s.status = material_wgmd_compile(&s.wgmd, of->modifiers, of->last);
     else
-        s.status = material_reflection_compile(&s.reflection, material_modifiers_library(s.modifiers), s.primitive);
+        s.status = material_reflection_compile(&s.reflection, material_modifiers_library(of->modifiers), of->last);
     return s;
 }
 
 static void setting_end(setting *s) {
-    material_modifiers_destroy(s->modifiers);
-    rad_scene_destroy(s->scene);
+    written_modifiers_destroy(&s->of);
 }
 
 static setting compiled(const char *text) {
