@@ -33,8 +33,8 @@ static bool is_mirror(const graze_scene *scene, const scene_material *material) 
     case SCENE_FUNCTION:
         return material->reflection->mirrors;
     case SCENE_MIXTURE:
-        return (material->fore >= 0 && scene_material_shows_lights(&scene->materials[material->fore])) ||
-               (material->back >= 0 && scene_material_shows_lights(&scene->materials[material->back]));
+        return scene_material_shows_lights(&scene->materials[material->fore]) ||
+               scene_material_shows_lights(&scene->materials[material->back]);
     case SCENE_EMITTER:
     case SCENE_PRISM:
     case SCENE_NOTHING:
@@ -92,11 +92,10 @@ static graze_status find_chain(scene_builder *b, int modifier, material_chain *c
 static int mixed_material(scene_builder *b, int modifier) {
     graze_scene *scene = b->scene;
     material_chain chain = {.material = RAD_VOID};
-    if (modifier != RAD_VOID && material_chain_find(&chain, scene->modifiers, modifier))
-        return scene_material_of_modifier(b, modifier);
-    if (chain.material != RAD_VOID)
-        return scene_material_of_modifier(b, modifier);
-    return scene_nothing(b);
+    if (modifier == RAD_VOID)
+        return scene_nothing(b);
+    bool refused = material_chain_find(&chain, scene->modifiers, modifier) != GRAZE_OK;
+    return refused || chain.material != RAD_VOID ? scene_material_of_modifier(b, modifier) : scene_nothing(b);
 }
 
 /* Both materials of a mixture. */

@@ -184,9 +184,14 @@ static bool sources_overlap(const scene_light *a, const scene_light *b) {
     return angle >= PI || between <= 2 * sin(angle / 2);
 }
 
-static void note_overlaps(graze_scene *scene) {
+/* A source as wide as this is a sky. */
+#define SKY_HALF_ANGLE (PI / 6)
+
+/* What is asked of sources again and again. */
+static void survey_sources(graze_scene *scene) {
     for (size_t i = scene->first_source; i < scene->light_count; i++) {
         scene_light *light = &scene->lights[i];
+        scene->has_sky = scene->has_sky || light->half_angle >= SKY_HALF_ANGLE;
         light->alone = true;
         for (size_t k = scene->first_source; k < i && light->alone; k++)
             light->alone = !sources_overlap(light, &scene->lights[k]);
@@ -207,7 +212,7 @@ static void add_surfaces(scene_builder *b) {
         for (size_t i = 0; i < b->own; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
-    note_overlaps(scene);
+    survey_sources(scene);
 }
 
 /* Whether there is a light that may be known without sampling where it is seen wholly. */

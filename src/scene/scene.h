@@ -145,6 +145,7 @@ struct graze_scene {
     size_t light_count;
     size_t seen_light_count;
     size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
+    bool has_sky;        /* one of them is so wide that it is a sky */
     bool suns_overlap;   /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;

@@ -46,16 +46,6 @@ static double passage_chance(const path *p, rgb transmittance) {
     return p->depth + p->passages >= ENDLESS_DEPTH ? fmin(chance, ENDLESS_SURVIVAL) : chance;
 }
 
-/* A source as wide as this is a sky. */
-#define SKY_HALF_ANGLE (PI / 6)
-
-static bool has_sky(const graze_scene *scene) {
-    for (size_t i = scene->first_source; i < scene->light_count; i++)
-        if (scene->lights[i].half_angle >= SKY_HALF_ANGLE)
-            return true;
-    return false;
-}
-
 /* Whether light is found by a lobe that may not go on, too: where Eq. 16 stands alone, and a gloss where it shares,
  * which light samples might miss, as they mostly do a sky that is seen through windows; and what is refracted on its
  * way no light sample finds. */
@@ -64,7 +54,7 @@ static bool finds_lights(const path *p, graze_lobe lobe) {
     const graze_scene *scene = p->context->scene;
     bool glossy = lobe == GRAZE_LOBE_GLOSSY || lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
     bool shares = scene->has_refraction || (s->strategy == GRAZE_STRATEGY_MIS &&
-                                            (glossy || (p->indirect_known && p->depth == 0 && has_sky(scene))));
+                                            (glossy || (p->indirect_known && p->depth == 0 && scene->has_sky)));
     return scene->light_count > 0 && (shares || !context_samples_lights(s));
 }
 
@@ -352,30 +342,21 @@ bool lobes_go_on(path *p, const gathering *here, const other_side *beyond, vec3 
 static void put_by(path *p, const vertex *v, bool below, path_branches *branches) {
     static const lobe_choice alone = {.specular = 1};
     static const double random[4] = {0, 0, 0, 0};
-    const rgb throughput = p->throughput, medium = p->medium;
-    const scattering last = p->last;
-    const known_lights known = p->known;
-    const int depth = p->depth, passages = p->passages;
+    path there = *p;
     path_branch *b = &branches->waiting[branches->count];
-    if (go_on(p, v, NULL, &alone, below, random, &b->direction)) {
-        b->point = v->point;
-        b->surface = v->surface;
-        b->length = p->length;
-        b->throughput = p->throughput;
-        b->medium = p->medium;
-        b->last = p->last;
-        b->last.vertex = NULL;
-        b->depth = p->depth;
-        b->passages = p->passages;
-        branches->count++;
-        p->branches++;
-    }
-    p->throughput = throughput;
-    p->medium = medium;
-    p->last = last;
-    p->known = known;
-    p->depth = depth;
-    p->passages = passages;
+    if (!go_on(&there, v, NULL, &alone, below, random, &b->direction))
+        return;
+    b->point = v->point;
+    b->surface = v->surface;
+    b->length = there.length;
+    b->throughput = there.throughput;
+    b->medium = there.medium;
+    b->last = there.last;
+    b->last.vertex = NULL;
+    b->depth = there.depth;
+    b->passages = there.passages;
+    branches->count++;
+    p->branches++;
 }
 
 void lobes_split(path *p, const vertex *v, const lobe_choice *above, const lobe_choice *below,

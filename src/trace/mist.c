@@ -99,6 +99,15 @@ static rgb scattered_of(const path *p, vec3 origin, vec3 direction, const mist_s
     return rgb_scale(turned / (at.density * sample.density), rgb_multiply(scatters, arrived));
 }
 
+/* Whether one of the span's mists before the one of this number names the light, too. */
+static bool is_named_before(const scene_mist *mist, const mist_span *span, int number, int light) {
+    for (int i = 0; i < number; i++)
+        for (int k = 0; (span->mists & (UINT32_C(1) << i)) && k < mist->of[i].light_count; k++)
+            if (mist->of[i].lights[k] == light)
+                return true;
+    return false;
+}
+
 /* All that mists of the span scatter; a light that several of them name, once. */
 static rgb scattered_in(const path *p, vec3 origin, vec3 direction, const mist_span *span) {
     const scene_mist *mist = p->context->scene->mist;
@@ -107,14 +116,9 @@ static rgb scattered_in(const path *p, vec3 origin, vec3 direction, const mist_s
         return sum;
     for (int i = 0; i < mist->count; i++) {
         const mist_material *m = &mist->of[i];
-        for (int k = 0; (span->mists & (UINT32_C(1) << i)) && k < m->light_count; k++) {
-            bool named = false;
-            for (int j = 0; j < i; j++)
-                for (int l = 0; (span->mists & (UINT32_C(1) << j)) && l < mist->of[j].light_count; l++)
-                    named = named || mist->of[j].lights[l] == m->lights[k];
-            if (!named)
+        for (int k = 0; (span->mists & (UINT32_C(1) << i)) && k < m->light_count; k++)
+            if (!is_named_before(mist, span, i, m->lights[k]))
                 sum = rgb_add(sum, scattered_of(p, origin, direction, span, m->lights[k]));
-        }
     }
     return sum;
 }

@@ -134,14 +134,14 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     v->behind = hit->behind;
     v->distance = hit->distance;
     bool irradiance = p->context->settings->quantity == GRAZE_IRRADIANCE_HIT && path_is_at_first(p);
-    if (!irradiance && !appearance_is_plain(scene, material, hit->surface)) {
-        appearance_prepare(p, hit, material, v);
-        return true;
-    }
     if (irradiance) {
         prepare_probe(p, hit, v);
         v->ambient = v->shading.diffuse;
         v->gloss_is_ambient = false;
+        return true;
+    }
+    if (!appearance_is_plain(scene, material, hit->surface)) {
+        appearance_prepare(p, hit, material, v);
         return true;
     }
     graze_surface_prepare(&v->shading, &material->reflector,
