@@ -1,5 +1,6 @@
 /* What the diffuse term reflects of a whole light: Lambert's formula, half the mean height of the outline's normals. */
 #include <math.h>
+#include <stdbool.h>
 
 #include "brdf/constants.h"
 #include "brdf/gauss.h"
@@ -12,13 +13,34 @@ static const double longest_turn = .4;
 /* An arc is cut in halves no more often than so. */
 static const int deepest = 20;
 
-/* The angle that an edge spans times the height of the normal of its plane. */
+/* Squared tangents up to this, that of 15 degrees and a little more, are small enough for the series. */
+static const double small_tangent2 = .0725;
+
+/* atan(t) / t for the square of t, by the series, whose rest is below 2^-54. */
+static inline double arc_tangent_over(double t2) {
+    double x = -t2, x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
+    double low = (1 + x * (1. / 3)) + x2 * (1. / 5 + x * (1. / 7));
+    double middle = (1. / 9 + x * (1. / 11)) + x2 * (1. / 13 + x * (1. / 15));
+    double high = (1. / 17 + x * (1. / 19)) + x2 * (1. / 21 + x * (1. / 23));
+    double last = 1. / 25 + x * (1. / 27);
+    return (low + x4 * middle) + x8 * (high + x4 * last);
+}
+
+/* The angle that an edge spans times the height of the unit normal of its plane. With n = p x q and c = p.q the tangent
+ * of half the angle is |n| / (h + c), h^2 = n^2 + c^2. */
+static inline double along_edge(graze_vec3 p, graze_vec3 q) {
+    graze_vec3 n = {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+    double sine2 = n.x * n.x + n.y * n.y + n.z * n.z, cosine = p.x * q.x + p.y * q.y + p.z * q.z;
+    double whole = sqrt(sine2 + cosine * cosine) + cosine;
+    if (cosine > 0 && sine2 <= small_tangent2 * whole * whole)
+        return 2 * n.z / whole * arc_tangent_over(sine2 / (whole * whole));
+    double sine = sqrt(sine2);
+    return sine > 0 ? n.z / sine * atan2(sine, cosine) : 0;
+}
+
 static void add_edge(void *context, graze_vec3 p, graze_vec3 q) {
     double *sum = context;
-    graze_vec3 n = {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-    double sine = sqrt(n.x * n.x + n.y * n.y + n.z * n.z), cosine = p.x * q.x + p.y * q.y + p.z * q.z;
-    if (sine > 0)
-        *sum += n.z / sine * atan2(sine, cosine);
+    *sum += along_edge(p, q);
 }
 
 static graze_vec3 arc_at(const brdf_arc *arc, double u) {
@@ -68,9 +90,19 @@ static double reflected(double sum) {
     return result > 0 ? fmin(result, 1) : 0;
 }
 
+static bool is_above(const graze_vec3 *corners, size_t count) {
+    for (size_t i = 0; i < count; ++i)
+        if (!(corners[i].z > 0))
+            return false;
+    return true;
+}
+
 double graze_diffuse_polygon(const graze_vec3 *corners, size_t count) {
     double sum = 0;
-    if (count >= 3)
+    if (count >= 3 && is_above(corners, count))
+        for (size_t i = 0; i < count; ++i)
+            sum += along_edge(corners[i > 0 ? i - 1 : count - 1], corners[i]);
+    else if (count >= 3)
         brdf_outline_of_polygon(corners, count, &(brdf_outline_visitor){add_edge, add_arc, &sum});
     return reflected(sum);
 }

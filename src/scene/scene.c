@@ -11,6 +11,7 @@
 #include "scene/light_pattern.h"
 #include "scene/mist.h"
 #include "scene/model_choice.h"
+#include "scene/sight_cells.h"
 
 const char *scene_name(const graze_scene *scene, int primitive) {
     return scene->primitives[primitive].id;
@@ -302,6 +303,8 @@ static graze_status build_geometry(scene_builder *b) {
     free(groups);
     if (status == GRAZE_OK && needs_sights(scene))
         status = geometry_prepare_sights(scene->geometry, b->report);
+    if (status == GRAZE_OK && needs_sights(scene))
+        status = sight_cells_make(scene, b->report);
     return status;
 }
 
@@ -343,6 +346,7 @@ void graze_scene_destroy(graze_scene *scene) {
     if (!scene)
         return;
     geometry_destroy(scene->geometry);
+    sight_cells_destroy(scene->sight_cells);
     scene_cuts_destroy(scene->cuts);
     scene_mist_destroy(scene->mist);
     material_modifiers_destroy(scene->modifiers);

@@ -94,11 +94,12 @@ typedef struct scene_material {
 } scene_material;
 
 typedef struct scene_surface {
-    int primitive;   /* in the description */
-    int material;    /* index into materials */
-    int light;       /* index into lights, or -1 */
-    bool no_ambient; /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;    /* flat, of the material `mirror`, without textures; to paths, not only to light samples */
+    int primitive;        /* in the description */
+    int material;         /* index into materials */
+    int light;            /* index into lights, or -1 */
+    bool no_ambient;      /* its modifier is among those whose diffuse interreflection is not computed */
+    bool mirrors;         /* flat, of the material `mirror`, without textures; to paths, not only to light samples */
+    unsigned short cells; /* index and 1 of its cells (scene/sight_cells.h); 0: it has none */
 } scene_surface;
 
 /* An instance or a mesh in a part. */
@@ -149,6 +150,7 @@ struct graze_scene {
     bool suns_overlap;   /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
+    struct sight_cells *sight_cells; /* null: none */
 };
 
 /* What a material is seen as, by all but light samples. */

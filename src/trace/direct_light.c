@@ -101,6 +101,8 @@ static bool light_is_visible(const path *p, const vertex *v, const light_sample 
     const graze_scene *scene = p->context->scene;
     geometry_ray ray = {
         .origin = v->point, .direction = sample->direction, .far = sample->distance, .from = v->surface};
+    if (!p->in_mist && known_light_is_clear(p, sample->light))
+        return true;
     if (!p->hindered)
         return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
     *light = light_let_through(p, &ray, sample);

@@ -4,6 +4,7 @@
 #include "base/angle.h"
 #include "geometry/crossing.h"
 #include "geometry/shaft.h"
+#include "scene/sight_cells.h"
 #include "trace/emission.h"
 #include "trace/unshadowed.h"
 
@@ -13,6 +14,10 @@ bool known_light_is_control(const path *p, int light) {
 
 bool known_light_is_settled(const path *p, int light) {
     return light < PATH_FEW_LIGHTS && p->known.settled >> light & 1;
+}
+
+bool known_light_is_clear(const path *p, int light) {
+    return light < PATH_FEW_LIGHTS && p->known.clear >> light & 1;
 }
 
 static path_control *control_of(path *p, int light) {
@@ -45,15 +50,16 @@ static geometry_visibility visibility(const graze_scene *scene, const vertex *v,
                                                                 .half_angle = light->half_angle});
 }
 
-/* What is known of a light, and kept for the other paths if this is their first point, too. */
-static path_memory_light look_at(const path *p, const vertex *v, int index, bool glossy) {
+/* What is known of a light, and kept for the other paths if this is their first point, too. `seen` is what is known of
+ * the surface around. */
+static path_memory_light look_at(const path *p, const vertex *v, int index, bool glossy, geometry_visibility seen) {
     const graze_scene *scene = p->context->scene;
     path_memory_light *kept = path_is_at_first(p) ? &p->context->memory->lights[index] : NULL;
     if (kept && kept->kept)
         return *kept;
     bool whole = !v->function && (!v->leans || light_choice_is_above(scene, index, v->point, v->normal));
-    path_memory_light found = {.times_mixed = kept ? kept->times_mixed : 0};
-    if (found.times_mixed < MIXED_GIVEN_UP)
+    path_memory_light found = {.seen = seen, .times_mixed = kept ? kept->times_mixed : 0};
+    if (seen == GEOMETRY_MIXED && found.times_mixed < MIXED_GIVEN_UP)
         found.seen = visibility(scene, v, index);
     found.integrated = found.seen != GEOMETRY_BLOCKED && whole &&
                        unshadowed_light_at(scene, &v->shading, v->point, index, glossy, &found.whole);
@@ -87,39 +93,77 @@ static void watch(path *p, int light) {
     begin_controls(p, light + 1);
 }
 
+/* What the surface reflects of a light that is seen as a whole. */
+static rgb reflected_whole(const path *p, const vertex *v, const scene_light *light, const unshadowed_light *whole,
+                           bool glossy) {
+    rgb diffuse = !light->glow ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);
+    rgb reflectance = rgb_scale(whole->diffuse, diffuse);
+    if (glossy)
+        reflectance = rgb_add_scaled(reflectance, whole->glossy, v->shading.specular);
+    return rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
+}
+
+static void settle(path *p, int light, rgb reflected) {
+    p->known.settled |= 1u << light;
+    p->radiance = rgb_add(p->radiance, reflected);
+}
+
+/* Where only one sample is taken, or few of many are at this point, an integral must cost less than a sample does. */
+static void add_at_once(path *p, const vertex *v, int index, bool glossy) {
+    const graze_scene *scene = p->context->scene;
+    const scene_light *light = &scene->lights[index];
+    unshadowed_light whole;
+    if ((glossy && v->shading.specular_lobe == GRAZE_LOBE_GLOSSY) || v->function || v->leans || !has_one_role(light) ||
+        !unshadowed_light_at(scene, &v->shading, v->point, index, false, &whole))
+        return;
+    p->integrated = true;
+    settle(p, index, reflected_whole(p, v, light, &whole, false));
+}
+
+/* What takes a look at what stands between the light and this vertex. */
+static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geometry_visibility seen) {
+    const scene_light *light = &p->context->scene->lights[i];
+    const path_memory_light found = look_at(p, v, i, glossy, seen);
+    if (found.seen == GEOMETRY_BLOCKED)
+        settle(p, i, rgb_gray(0));
+    if (found.seen == GEOMETRY_CLEAR)
+        p->known.clear |= 1u << i;
+    if (!found.integrated || !has_one_role(light)) {
+        if (found.seen == GEOMETRY_MIXED && !p->known.shared && can_be_told(light))
+            watch(p, i);
+        return;
+    }
+    rgb reflected = reflected_whole(p, v, light, &found.whole, glossy);
+    p->integrated = true;
+    if (found.seen == GEOMETRY_CLEAR) {
+        settle(p, i, reflected);
+        return;
+    }
+    p->known.controls |= 1u << i;
+    begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
+    path_control *control = control_of(p, i);
+    control->difference = rgb_add(control->difference, reflected);
+}
+
 void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){.shared = !path_is_at_first(p)};
-    if (!light_choice_is_every_one(lights) || p->scattered || p->context->settings->samples == 1)
+    if (!light_choice_is_every_one(lights))
         return;
+    bool at_once = p->scattered || p->context->settings->samples == 1;
     for (int i = 0; i < (int)scene->light_count; i++) {
-        const scene_light *light = &scene->lights[i];
-        bool ambient = light->glow, glossy = !ambient || !v->gloss_is_ambient;
         if (light_expectation(lights, i) == 0)
             continue;
-        const path_memory_light found = look_at(p, v, i, glossy);
-        if (found.seen == GEOMETRY_BLOCKED)
-            p->known.settled |= 1u << i;
-        if (!found.integrated || !has_one_role(light)) {
-            if (found.seen == GEOMETRY_MIXED && !p->known.shared && can_be_told(light))
-                watch(p, i);
-            continue;
+        bool glossy = !scene->lights[i].glow || !v->gloss_is_ambient;
+        geometry_visibility seen = sight_cells_at(scene, v->surface, v->point, i);
+        if (!at_once) {
+            add_after_a_look(p, v, i, glossy, seen);
+        } else if (seen == GEOMETRY_BLOCKED) {
+            settle(p, i, rgb_gray(0));
+        } else if (seen == GEOMETRY_CLEAR) {
+            p->known.clear |= 1u << i;
+            add_at_once(p, v, i, glossy);
         }
-        rgb diffuse = !ambient ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);
-        rgb reflectance = rgb_scale(found.whole.diffuse, diffuse);
-        if (glossy)
-            reflectance = rgb_add_scaled(reflectance, found.whole.glossy, v->shading.specular);
-        rgb reflected = rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
-        p->integrated = true;
-        if (found.seen == GEOMETRY_CLEAR) {
-            p->known.settled |= 1u << i;
-            p->radiance = rgb_add(p->radiance, reflected);
-            continue;
-        }
-        p->known.controls |= 1u << i;
-        begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
-        path_control *control = control_of(p, i);
-        control->difference = rgb_add(control->difference, reflected);
     }
 }
 

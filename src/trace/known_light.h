@@ -10,6 +10,9 @@ bool known_light_is_control(const path *, int light);
 /* Whether it has been added, and must not be found in other ways. */
 bool known_light_is_settled(const path *, int light);
 
+/* Whether nothing is on the way to any point of it. */
+bool known_light_is_clear(const path *, int light);
+
 /* Whether the lights are all that could be reflected at the vertex, and all of them are settled or shine elsewhere. */
 bool known_light_is_all(const path *, const vertex *, const light_choice *);
 

@@ -131,7 +131,7 @@ static void decide_for_both(const path *p, gathering *here, other_side *beyond) 
 /* Light that comes from the other side, of which nothing is known without sampling. */
 static void gather_below(path *p, const vertex *v, const other_side *beyond) {
     known_lights above = p->known;
-    p->known.controls = p->known.settled = p->known.watched = 0;
+    p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
     if (light_choice_is_possible(&beyond->lights) && !p->context->record)
         direct_light_add_below(p, v, &beyond->lights, &beyond->lobes);
     p->known = above;
@@ -203,7 +203,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
             here->lobes = lobes_choose(p, v);
             direct_light_prepare(p, v, &here->lights);
         }
-        p->known.controls = p->known.settled = p->known.watched = 0;
+        p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
         p->gloss = rare_gloss_at(p, v);
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
             if (!context->observer && !p->in_mist)

@@ -30,6 +30,7 @@ typedef struct known_lights {
     unsigned controls; /* of these, what they would give without shadows: it is a control of what samples find */
     unsigned settled;  /* of these, all that they give: they are seen wholly, or not at all */
     unsigned watched;  /* of these, that they may be seen in part: controls tell how much, no more */
+    unsigned clear;    /* of these, that nothing is on the way to any of their points */
     bool shared;       /* the controls are one for all */
 } known_lights;
 

@@ -1,0 +1,152 @@
+/* Cells of surfaces: what is said of one holds for shadow rays from its points; and which surfaces have some. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "scene/light.h"
+#include "scene/sight_cells.h"
+#include "support/scene_text.h"
+
+static uint64_t state_of_random = 1;
+static double uniform(void) {
+    state_of_random = state_of_random * 6364136223846793005u + 1442695040888963407u;
+    return (double)(state_of_random >> 11) * 0x1p-53;
+}
+
+/* A room with an L-shaped floor, turned about the upright, with a table and a partition; a lamp, a window and a sun. */
+#define ROOM                                                                                                           \
+    "void plastic wall 0 0 5 .5 .5 .5 0 0\n"                                                                           \
+    "void light lamp 0 0 3 10 10 10\n"                                                                                 \
+    "void glow window 0 0 4 3 3 4 0\n"                                                                                 \
+    "wall polygon floor 0 0 18 0 0 0 3.2 2.4 0 1.4 4.8 0 -.2 3.6 0 .4 2.8 0 -1.2 1.6 0\n"                              \
+    "wall polygon table 0 0 12 .6 1.2 .7 1.4 1.8 .7 .8 2.6 .7 0 2 .7\n"                                                \
+    "wall polygon partition 0 0 12 .4 2.8 0 1.2 3.4 0 1.2 3.4 1.5 .4 2.8 1.5\n"                                        \
+    "wall sphere ball 0 0 4 1.6 2 .3 .3\n"                                                                             \
+    "lamp polygon panel 0 0 12 .5 1 2.5 .2 1.4 2.5 .6 1.7 2.5 .9 1.3 2.5\n"                                            \
+    "window polygon pane 0 0 12 3.2 2.4 1 3.2 2.4 2 1.4 4.8 2 1.4 4.8 1\n"                                             \
+    "lamp source sun 0 0 4 1 -1 2 .5\n"
+
+static int surface_named(const graze_scene *scene, const char *name) {
+    for (size_t i = 0; i < scene->surface_count; i++)
+        if (strcmp(scene_name(scene, scene->surfaces[i].primitive), name) == 0)
+            return (int)i;
+    fail_msg("no %s", name);
+    return -1;
+}
+
+/* Shadow rays from a point to a light's front. */
+static void check_light(const graze_scene *scene, int surface, vec3 point, vec3 normal, int light, int found[3]) {
+    geometry_visibility seen = sight_cells_at(scene, surface, point, light);
+    assert_int_equal(sight_cells_at(scene, surface, point, light), seen);
+    found[seen]++;
+    for (int i = 0; i < 8; i++) {
+        light_sample sample = light_draw(scene, point, 0, light, (double[2]){uniform(), uniform()});
+        if (sample.light < 0 || vec3_dot(sample.direction, normal) <= 0)
+            continue;
+        geometry_ray ray = {point, sample.direction, sample.distance, surface};
+        bool occluded = geometry_occluded(scene->geometry, &ray, scene->lights[light].surface);
+        assert_false(seen == GEOMETRY_CLEAR && occluded);
+        assert_false(seen == GEOMETRY_BLOCKED && !occluded);
+    }
+}
+
+/* From points that rays from above find. */
+static void check_surface(const graze_scene *scene, const char *name, int found[3]) {
+    int surface = surface_named(scene, name), points = 0;
+    while (points < 4000) {
+        geometry_ray ray = {.origin = {4.5 * uniform() - 1.3, 5 * uniform(), 2.4},
+                            .direction = {0, 0, -1},
+                            .far = GEOMETRY_FAR,
+                            .from = -1};
+        geometry_hit hit;
+        if (!geometry_intersect(scene->geometry, &ray, &hit) || hit.surface != surface)
+            continue;
+        points++;
+        for (int light = 0; light < (int)scene->light_count; light++)
+            check_light(scene, surface, hit.point, hit.normal, light, found);
+    }
+}
+
+static void as_shadow_rays_say(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text(ROOM);
+    assert_non_null(scene);
+    int floor[3] = {0}, table[3] = {0};
+    check_surface(scene, "floor", floor);
+    check_surface(scene, "table", table);
+    /* Of 12,000 answers each, most are useful. */
+    assert_true(floor[GEOMETRY_CLEAR] > 4000);
+    assert_true(floor[GEOMETRY_BLOCKED] > 500);
+    assert_true(table[GEOMETRY_CLEAR] > 7000);
+    graze_scene_destroy(scene);
+}
+
+/* Points beside the surface, as roundings may put them, are taken for its edge. */
+static void beyond_the_edge(void **state) {
+    (void)state;
+    graze_scene *scene = scene_from_text(ROOM);
+    assert_non_null(scene);
+    int table = surface_named(scene, "table");
+    const vec3 corner = {.6, 1.2, .7}, beside = {.6 - 1e-12, 1.2 - 1e-12, .7}, far = {-1e30, 1e30, .7};
+    for (int light = 0; light < (int)scene->light_count; light++) {
+        assert_int_equal(sight_cells_at(scene, table, corner, light), sight_cells_at(scene, table, beside, light));
+        (void)sight_cells_at(scene, table, far, light);
+    }
+    assert_int_equal(sight_cells_at(scene, -1, corner, 0), GEOMETRY_MIXED);
+    assert_int_equal(sight_cells_at(scene, (int64_t)scene->surface_count, corner, 0), GEOMETRY_MIXED);
+    assert_int_equal(sight_cells_at(scene, surface_named(scene, "ball"), corner, 0), GEOMETRY_MIXED);
+    graze_scene_destroy(scene);
+}
+
+static void many_lights_have_none(void **state) {
+    (void)state;
+    char text[4096] = ROOM;
+    for (int i = 0; i < 6; i++) {
+        size_t end = strlen(text);
+        (void)snprintf(text + end, sizeof text - end, "lamp sphere extra%d 0 0 4 %d 9 9 .1\n", i, i);
+    }
+    graze_scene *scene = scene_from_text(text);
+    assert_non_null(scene);
+    assert_int_equal(scene->light_count, 9);
+    assert_null(scene->sight_cells);
+    assert_int_equal(sight_cells_at(scene, surface_named(scene, "table"), vec3_make(.7, 1.8, .7), 0), GEOMETRY_MIXED);
+    graze_scene_destroy(scene);
+}
+
+/* Of many surfaces the largest have cells: here those of the room, and none of the many small ones. */
+static void the_largest_have_cells(void **state) {
+    (void)state;
+    enum { SMALL = 3000 };
+    size_t room = 100 * SMALL + sizeof ROOM;
+    char *text = malloc(room);
+    assert_non_null(text);
+    size_t end = (size_t)snprintf(text, room, "%s", ROOM);
+    for (int i = 0; i < SMALL; i++)
+        end +=
+            (size_t)snprintf(text + end, room - end, "wall polygon p%d 0 0 9 %d 9 0 %d.1 9 0 %d 9.1 0\n", i, i, i, i);
+    graze_scene *scene = scene_from_text(text);
+    assert_non_null(scene);
+    assert_int_not_equal(scene->surfaces[surface_named(scene, "floor")].cells, 0);
+    assert_int_not_equal(scene->surfaces[surface_named(scene, "partition")].cells, 0);
+    assert_int_equal(scene->surfaces[surface_named(scene, "p7")].cells, 0);
+    assert_int_equal(scene->surfaces[surface_named(scene, "panel")].cells, 0);
+    graze_scene_destroy(scene);
+    free(text);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_shadow_rays_say),
+        cmocka_unit_test(beyond_the_edge),
+        cmocka_unit_test(many_lights_have_none),
+        cmocka_unit_test(the_largest_have_cells),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
