@@ -77,6 +77,7 @@ static void test_falling(void **state) {
     const rad_data *even = read_text(memory, "1 3 1 3 10 20 40"), *uneven = read_text(memory, "1 0 0 3 3 2 1 10 20 40");
     assert_non_null(even);
     assert_non_null(uneven);
+    assert_true(uneven->axes[0].begin == 3 && uneven->axes[0].length == -2);
     for (double x = 0.2; x < 4; x += 0.3) {
         double expected = x >= 2 ? 20 - 10 * (x - 2) : 20 + 20 * (2 - x);
         assert_value(even, x, 0, expected);
