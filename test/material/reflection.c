@@ -194,6 +194,10 @@ static void arguments_are_checked(void **state) {
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 2e10", "real argument 9 is above 1e10");
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0. . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void BRTDfunc m 10 0 0 0 q 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
+    assert_refused(
+        "void plastic p 0 0 5 .5 .5 .5 0 0 void WGMDfunc m 13 p .1 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 "
+        "0 0 0",
+        "WGMDfunc m: 'p' is a material, not a pattern");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 -1 0",
                    "real argument 8 is negative");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 -1 0 0 0 0 0 0 0 0",
