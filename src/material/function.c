@@ -101,8 +101,6 @@ graze_status material_function_compile(material_function *f, material_library *l
                                  .real_count = p->real_count,
                                  .channels = CAL_CHANNEL_BITS(1, CAL_RAY_CHANNELS) | channels,
                                  .where = &where};
-    if (count > MATERIAL_VALUES_MOST)
-        return rad_primitive_error(o->report, p, "has more than %d functions", MATERIAL_VALUES_MOST);
     f->count = (int)count;
     graze_status status = material_library_compile(library, &request, &f->code);
     return status ? status : try(f, o);

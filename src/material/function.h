@@ -32,15 +32,16 @@ typedef struct material_function {
     int count; /* of values */
 } material_function;
 
-/* The first channel beside those of the ray: for data, and directions. So many values at most has a function. */
-enum { MATERIAL_OWN_CHANNEL = CAL_SCENE_CHANNELS + 1, MATERIAL_VALUES_MOST = 12 };
+/* The first channel beside those of the ray: for data, and directions. So many values at most has a function: prism2's.
+ */
+enum { MATERIAL_OWN_CHANNEL = CAL_SCENE_CHANNELS + 1, MATERIAL_VALUES_MOST = 8 };
 
 /* Reads the function file, string `file` of the primitive, and the transform behind it. Strings before number `rest`
  * are spoken for; others before the transform are told to be ignored. */
 graze_status material_owner_begin(material_owner *, material_library *, const rad_primitive *, uint32_t file,
                                   uint32_t rest);
-/* Compiles expressions in the context of that file. `channels` are those that have values beside the ray's. Names
- * that are not defined are errors, in all branches that could be taken. */
+/* Compiles expressions, MATERIAL_VALUES_MOST at most, in the context of that file. `channels` are those that have
+ * values beside the ray's. Names that are not defined are errors, in all branches that could be taken. */
 graze_status material_function_compile(material_function *, material_library *, const material_owner *, uint32_t file,
                                        const cal_expression *, size_t count, uint64_t channels);
 

@@ -84,7 +84,7 @@ bool rad_bytes_have_format(const whole_file *file, const char *format) {
     static const char key[] = "\nFORMAT=";
     const char *end = header_end(file->bytes);
     const char *found = end ? strstr(file->bytes, key) : NULL;
-    if (!found || found >= end)
+    if (!found || found + 1 >= end)
         return false;
     found += sizeof key - 1;
     found += strspn(found, " ");

@@ -49,11 +49,11 @@ rad_transform rad_transform_inverse(const rad_transform *t) {
     return inverse;
 }
 
+/* The scale says it for the rest of the matrix. */
 static bool is_in_range(const rad_transform *t) {
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 3; ++column)
-            if (!(fabs(t->m[row][column]) <= largest_element))
-                return false;
+    for (int column = 0; column < 3; ++column)
+        if (!(fabs(t->m[3][column]) <= largest_element))
+            return false;
     return t->scale >= 1 / largest_element && t->scale <= largest_element;
 }
 

@@ -138,7 +138,7 @@ static size_t longest(const char *const *words, int count) {
 /* The count of an array, INSTANCES_MOST + 1 where it is more than that; 0 where there is none. */
 static int array_count(const char *word) {
     double n;
-    if (word[0] == '-' || word[strspn(word, "+0123456789")] || !text_to_real(word, &n))
+    if (word[strspn(word, "+0123456789")] || !text_to_real(word, &n))
         return 0;
     return n > INSTANCES_MOST ? INSTANCES_MOST + 1 : (int)n;
 }

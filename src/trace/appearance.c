@@ -215,10 +215,6 @@ static void prepare_mixture(const path *p, const path_hit *hit, const encounter 
 
 static void prepare(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
                     material_effect before, vertex *v) {
-    if (m->kind == SCENE_WGMD) {
-        appearance_prepare_wgmd(p, hit, of, m, before, v);
-        return;
-    }
     const material_effect e = encounter_add_effect(m->modifiers, &of->ray, before);
     switch (m->kind) {
     case SCENE_REFLECTOR:
@@ -242,6 +238,7 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
         prepare_reflector(p, hit, of, &black, &e, v);
         break;
     case SCENE_WGMD:
+        appearance_prepare_wgmd(p, hit, of, m, before, &e, v);
         break;
     }
 }
@@ -301,7 +298,7 @@ static rgb straight_through(const scene_material *materials, const scene_materia
     case SCENE_FUNCTION:
         return appearance_through_function(hit, of, m->reflection, &e);
     case SCENE_WGMD:
-        return appearance_through_wgmd(hit, of, m, before);
+        return appearance_through_wgmd(hit, of, m, before, &e);
     case SCENE_EMITTER:
     case SCENE_PRISM:
         break;

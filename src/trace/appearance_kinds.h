@@ -23,12 +23,14 @@ void appearance_prepare_function(const path *, const path_hit *, const encounter
 /* What goes straight through such a surface, and one of SCENE_WGMD. */
 rgb appearance_through_function(const path_hit *, const encounter *, const material_reflection *,
                                 const material_effect *);
-rgb appearance_through_wgmd(const path_hit *, const encounter *, const scene_material *, material_effect before);
+rgb appearance_through_wgmd(const path_hit *, const encounter *, const scene_material *, material_effect before,
+                            const material_effect *own);
 
-/* Prepares a vertex for SCENE_WGMD, `before` being what mixtures and meshes do to it: one surface where all its parts
- * have the same normal, as they mostly do; else those of one normal are drawn, for all. */
+/* Prepares a vertex for SCENE_WGMD, `before` being what mixtures and meshes do to it, `own` that with its modifiers:
+ * one surface where all its parts have the same normal, as they mostly do; else those of one normal are drawn, for all.
+ */
 void appearance_prepare_wgmd(const path *, const path_hit *, const encounter *, const scene_material *,
-                             material_effect before, vertex *);
+                             material_effect before, const material_effect *own, vertex *);
 
 /* Prepares a vertex for SCENE_PRISM; of two ways on, one is drawn. */
 void appearance_prepare_prism(const path *, const path_hit *, const encounter *, const material_prism *, vertex *);

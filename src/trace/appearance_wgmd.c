@@ -15,14 +15,14 @@ static void bring_to_scene(const encounter *of, graze_surface *s) {
 
 /* The point, each part with what modifies it. */
 static material_wgmd_point look_at(const path_hit *hit, const encounter *of, const scene_material *m,
-                                   material_effect before, material_effect effects[WGMD_PARTS]) {
+                                   material_effect before, const material_effect *own,
+                                   material_effect effects[WGMD_PARTS]) {
     const material_wgmd *w = m->wgmd;
-    const material_effect own = encounter_add_effect(m->modifiers, &of->ray, before);
     material_wgmd_point at = {.ray = of->ray, .model = m->model};
     for (int part = 0; part < WGMD_PARTS; part++) {
         if (!w->has[part])
             continue;
-        effects[part] = w->inherits[part] ? own : encounter_add_effect(w->modifiers[part], &of->ray, before);
+        effects[part] = w->inherits[part] ? *own : encounter_add_effect(w->modifiers[part], &of->ray, before);
         at.normals[part] = encounter_as_written(of, encounter_lean(hit, of, &effects[part]));
         at.colors[part] = encounter_colored(rgb_gray(1), effects[part].color);
     }
@@ -67,10 +67,10 @@ static void multiply(graze_surface *s, double by) {
 }
 
 void appearance_prepare_wgmd(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
-                             material_effect before, vertex *v) {
+                             material_effect before, const material_effect *own, vertex *v) {
     const material_wgmd *w = m->wgmd;
     material_effect effects[WGMD_PARTS];
-    const material_wgmd_point at = look_at(hit, of, m, before, effects);
+    const material_wgmd_point at = look_at(hit, of, m, before, own, effects);
     graze_surface parts[WGMD_PARTS];
     int firsts[WGMD_PARTS];
     material_wgmd_prepare(w, &at, parts);
@@ -94,8 +94,9 @@ void appearance_prepare_wgmd(const path *p, const path_hit *hit, const encounter
     vertex_set_ambient(p, v, reflected, transmitted);
 }
 
-rgb appearance_through_wgmd(const path_hit *hit, const encounter *of, const scene_material *m, material_effect before) {
+rgb appearance_through_wgmd(const path_hit *hit, const encounter *of, const scene_material *m, material_effect before,
+                            const material_effect *own) {
     material_effect effects[WGMD_PARTS];
-    const material_wgmd_point at = look_at(hit, of, m, before, effects);
+    const material_wgmd_point at = look_at(hit, of, m, before, own, effects);
     return material_wgmd_through(m->wgmd, &at);
 }

@@ -30,15 +30,13 @@ static void look_around(const graze_scene *scene) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int errors = 0;
     const graze_report report = {count_error, &errors};
-    const char *name = input_file.name = "input.rad";
+    const char *name = "input.rad";
     if (has_large_array(data, size))
         return 0;
-    input_file.data = data;
-    input_file.size = size;
+    set_input(name, data, size);
     graze_scene *scene;
     graze_status status = graze_scene_load(&scene, &name, 1, NULL, &report);
-    MUST(status == GRAZE_OK || status == GRAZE_INPUT_ERROR);
-    MUST((status == GRAZE_OK) == (scene != NULL) && (status == GRAZE_OK) == (errors == 0));
+    check_outcome(status, scene, errors);
     if (scene)
         look_around(scene);
     graze_scene_destroy(scene);

@@ -36,14 +36,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const graze_report report = {count_error, &errors};
     if (size < 1)
         return 0;
-    const char *text = users[data[0] % 2], *name = input_file.name = "user.rad";
-    input_file.data = (const uint8_t *)text;
-    input_file.size = strlen(text);
+    const char *text = users[data[0] % 2], *name = "user.rad";
+    set_input(name, text, strlen(text));
     rad_scene *scene;
     MUST(rad_scene_read(&scene, &name, 1, &report) == GRAZE_OK);
-    input_file.name = "input.bin";
-    input_file.data = data + 1;
-    input_file.size = size - 1;
+    set_input("input.bin", data + 1, size - 1);
     graze_status status = rad_scene_read_parts(scene, &report);
     MUST(status == GRAZE_OK || status == GRAZE_INPUT_ERROR);
     MUST((status == GRAZE_OK) == (errors == 0));

@@ -69,6 +69,18 @@ static void count_error(void *user, graze_severity severity, const char *text) {
     *(int *)user += severity == GRAZE_ERROR;
 }
 
+static void set_input(const char *name, const void *data, size_t size) {
+    input_file.name = name;
+    input_file.data = data;
+    input_file.size = size;
+}
+
+/* There is a scene, or an error of the input that was reported. */
+static inline void check_outcome(graze_status status, const void *scene, int errors) {
+    MUST(status == GRAZE_OK || status == GRAZE_INPUT_ERROR);
+    MUST((status == GRAZE_OK) == (scene != NULL) && (status == GRAZE_OK) == (errors == 0));
+}
+
 /* Large arrays take long and prove nothing. */
 static inline bool has_large_array(const uint8_t *data, size_t size) {
     int arrays = 0, digits = 0;

@@ -14,13 +14,6 @@ static graze_material ashik2(generator *g, double least, double most) {
     return m;
 }
 
-static graze_surface prepare(const graze_material *m, generator *g, double cosine) {
-    graze_surface s;
-    vec3 n = random_direction(g);
-    graze_surface_prepare(&s, m, n, direction_at(g, n, cosine), NULL);
-    return s;
-}
-
 static double schlick(double cosine) {
     return pow(1 - cosine, 5);
 }
@@ -56,8 +49,7 @@ static void samples_weigh_what_values_say(void **state) {
     for (int i = 0; i < 20000; i++) {
         graze_material m = ashik2(&g, 0.5, 1e4);
         graze_surface s = prepare(&m, &g, 0.01 + 0.99 * uniform(&g));
-        double r0 = uniform(&g), r1 = uniform(&g), r2 = uniform(&g);
-        graze_surface_sample sample = graze_surface_sample_lobe(&s, GRAZE_LOBE_GLOSSY, r0, r1, r2);
+        graze_surface_sample sample = draw(&s, GRAZE_LOBE_GLOSSY, &g);
         assert_unit(sample.direction);
         assert_true(sample.weight.r <= s.specular.r * (1 + 1e-12));
         if (sample.density == 0) {

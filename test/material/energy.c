@@ -24,10 +24,7 @@ static graze_surface prepare_case(const furnace_case *c, double cosine, generato
     graze_material m = material_make(c->kind, rgb_gray(c->color), c->specularity, c->u, c->v);
     m.has_orientation = c->u != c->v;
     m.orientation = random_direction(g);
-    vec3 n = random_direction(g);
-    graze_surface s;
-    graze_surface_prepare(&s, &m, n, direction_at(g, n, cosine), NULL);
-    return s;
+    return prepare(&m, g, cosine);
 }
 
 /* The integrals of value x cosine over the hemisphere, by midpoints in substituted variables. lz = x^3 (10 - 15 x + 6

@@ -170,6 +170,19 @@ static void unphysical_values_are_taken_with_a_warning(void **state) {
     assert_non_null(strstr(log.text, "unphysical: a specularity"));
     assert_int_equal(convert(&m, &log, RAD_PLASTIC, 0, NULL, 5, white), GRAZE_OK);
     assert_int_equal(log.warnings, 0);
+    for (int c = 0; c < 3; c++) {
+        double sum[] = {0.75, 0.75, 0.75, 0.25, 0.25, 0.25, 0, 1e6}, mirror[] = {1, 1, 1};
+        assert_int_equal(convert(&m, &log, RAD_ASHIK2, 4, plain, 8, sum), GRAZE_OK);
+        assert_true(log.warnings == 0 && m.power_u == 0 && m.power_v == 1e6);
+        assert_int_equal(convert(&m, &log, RAD_MIRROR, 0, NULL, 3, mirror), GRAZE_OK);
+        assert_int_equal(log.warnings, 0);
+        sum[c] = 0.76;
+        assert_int_equal(convert(&m, &log, RAD_ASHIK2, 4, plain, 8, sum), GRAZE_OK);
+        assert_true(log.warnings == 1 && strstr(log.text, "unphysical: its colours add up to more than 1"));
+        mirror[c] = 1.01;
+        assert_int_equal(convert(&m, &log, RAD_MIRROR, 0, NULL, 3, mirror), GRAZE_OK);
+        assert_true(log.warnings == 1 && strstr(log.text, "unphysical: a colour above 1"));
+    }
 }
 
 static void idle_strings_of_isotropic_types_are_warned_of(void **state) {
@@ -239,6 +252,22 @@ static void wrong_transparent_types_are_refused(void **state) {
     assert_refused(RAD_TRANS2, 4, plain, 8, rough, "roughness 11 is above 10");
 }
 
+static void wrong_ashik2_and_mirror_are_refused(void **state) {
+    (void)state;
+    const double negative[] = {0.1, 0.2, 0.3, 0.1, 0.2, 0.3, -1, 10},
+                 steep[] = {0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 10, 1.1e6};
+    const double steep_u[] = {0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 1.1e6, 10}, dark[] = {0.5, 0.5, -0.5};
+    static const char *const two[] = {"one", "two"};
+    assert_refused(RAD_ASHIK2, 4, plain, 7, steep, "needs 8 real arguments");
+    assert_refused(RAD_ASHIK2, 4, plain, 8, negative, "argument 7 is negative");
+    assert_refused(RAD_ASHIK2, 4, plain, 8, steep, "the powers must be in 0 .. 1000000");
+    assert_refused(RAD_ASHIK2, 4, plain, 8, steep_u, "the powers must be in 0 .. 1000000");
+    assert_refused(RAD_ASHIK2, 3, plain, 8, steep, "needs at least 4 string arguments, not 3");
+    assert_refused(RAD_MIRROR, 0, NULL, 2, dark, "needs 3 real arguments");
+    assert_refused(RAD_MIRROR, 0, NULL, 3, dark, "argument 3 is negative");
+    assert_refused(RAD_MIRROR, 2, two, 3, iso, "needs 1 string argument at most, not 2");
+}
+
 static void a_missing_report_changes_nothing(void **state) {
     (void)state;
     graze_material m;
@@ -260,6 +289,7 @@ int main(void) {
         cmocka_unit_test(idle_strings_of_isotropic_types_are_warned_of),
         cmocka_unit_test(transparent_types_are_read),
         cmocka_unit_test(wrong_transparent_types_are_refused),
+        cmocka_unit_test(wrong_ashik2_and_mirror_are_refused),
         cmocka_unit_test(other_materials_are_not_supported_yet),
         cmocka_unit_test(a_missing_report_changes_nothing),
     };

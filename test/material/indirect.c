@@ -12,11 +12,6 @@ static graze_material turned_material(generator *g, double u, double v) {
     return m;
 }
 
-static graze_surface_sample draw(const graze_surface *s, graze_lobe lobe, generator *g) {
-    double r0 = uniform(g), r1 = uniform(g), r2 = uniform(g);
-    return graze_surface_sample_lobe(s, lobe, r0, r1, r2);
-}
-
 static void weight_is_value_cosine_over_density(void **state) {
     (void)state;
     generator g = {21};
@@ -58,9 +53,7 @@ static void weights_of_the_new_model_stay_below_the_reflectance(void **state) {
     generator g = {22};
     for (int i = 0; i < 20000; i++) {
         graze_material m = turned_material(&g, pow(10, -4 * uniform(&g)), pow(10, -4 * uniform(&g)));
-        vec3 n = random_direction(&g);
-        graze_surface s;
-        graze_surface_prepare(&s, &m, n, direction_at(&g, n, pow(10, -6 * uniform(&g))), NULL);
+        graze_surface s = prepare(&m, &g, pow(10, -6 * uniform(&g)));
         graze_surface_sample sample = draw(&s, GRAZE_LOBE_GLOSSY, &g);
         assert_unit(sample.direction);
         assert_finite_nonnegative(sample.weight);
@@ -77,9 +70,7 @@ static void unweighted_samples_all_weigh_the_same(void **state) {
     for (int i = 0; i < 3; i++) {
         graze_material m = turned_material(&g, 0.1, 0.3);
         m.model = (graze_brdf_model)i;
-        vec3 n = random_direction(&g);
-        graze_surface s;
-        graze_surface_prepare(&s, &m, n, direction_at(&g, n, cosines[i]), NULL);
+        graze_surface s = prepare(&m, &g, cosines[i]);
         int kept = 0;
         for (int k = 0; k < COUNT; k++) {
             double r0 = uniform(&g), r1 = uniform(&g);
@@ -91,7 +82,7 @@ static void unweighted_samples_all_weigh_the_same(void **state) {
                 continue;
             kept++;
             assert_memory_equal(&sample.weight, &s.specular, sizeof s.specular);
-            assert_true(fabs(vec3_dot(sample.direction, n) - ward.l.z) < 1e-15);
+            assert_true(fabs(vec3_dot(sample.direction, s.n) - ward.l.z) < 1e-15);
             assert_true(fabs(vec3_dot(sample.direction, s.x) - ward.l.x) < 1e-14);
         }
         double share = graze_brdf_ward_acceptance(&s.lobe, s.local_view);
@@ -170,9 +161,7 @@ static void glossy_samples_follow_their_density_in_world_space(void **state) {
     const double cases[][3] = {{0.25, 0.6, 0.9}, {0.6, 0.25, 0.5}, {0.3, 0.3, 0.05}, {0.2, 0.8, 0.02}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         graze_material m = turned_material(&g, cases[i][0], cases[i][1]);
-        vec3 n = random_direction(&g);
-        graze_surface s;
-        graze_surface_prepare(&s, &m, n, direction_at(&g, n, cases[i][2]), NULL);
+        graze_surface s = prepare(&m, &g, cases[i][2]);
         check_distribution(&s, GRAZE_LOBE_GLOSSY, &g);
     }
 }
@@ -181,9 +170,7 @@ static void diffuse_samples_follow_their_density_in_world_space(void **state) {
     (void)state;
     generator g = {24};
     graze_material m = turned_material(&g, 0.1, 0.2);
-    vec3 n = random_direction(&g);
-    graze_surface s;
-    graze_surface_prepare(&s, &m, n, direction_at(&g, n, 0.3), NULL);
+    graze_surface s = prepare(&m, &g, 0.3);
     check_distribution(&s, GRAZE_LOBE_DIFFUSE, &g);
 }
 

@@ -15,6 +15,7 @@ static int enter_directory(void **state) {
                     "deep(n) = if(n - .5, 1 + deep(n - 1), 0); dug = deep(A1*20000);"},
         {"line.dat", "1\n0 2 3\n1 3 11\n"},
         {"plane.dat", "2\n0 1 2\n0 1 2\n1 2\n3 4\n"},
+        {"one.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\naaaabbbb"},
     };
     *state = name;
     if (!mkdtemp(name) || chdir(name))
@@ -230,12 +231,26 @@ static void test_refused(void **state) {
     assert_refused("void brightdata b 4 nothing line.dat . Px 0 0", "nothing");
     assert_refused("void colordata b 9 noop noop noop plane.dat line.dat line.dat . Px Py 0 0", "2 and 1 dimensions");
     assert_refused("void colorpict b 7 noop noop noop none.hdr . Px Py 0 0", "there is no picture none.hdr");
+    assert_refused("void colorpict b 7 noop noop noop one.hdr . Px Py 0 0", "less than 2 x 2 pixels");
     assert_refused("void mixfunc b 4 nobody void .5 . 0 0", "there is no modifier 'nobody' before it");
     assert_refused("void brightfunc a 2 1 . 0 0 void plastic p 0 0 5 1 1 1 0 0 a mixfunc b 4 p void .5 . 0 0",
                    "a mixture of materials cannot be modified");
     assert_refused("void plastic p 0 0 5 1 1 1 0 0 p brightfunc a 2 1 . 0 0 a metal m 0 0 5 1 1 1 0 0",
                    "this material modifies another one");
     assert_refused("void brighttext t 2 f x 0 11 0 0 0 1 0 0 0 1 0 0 1", "brighttext is not supported yet");
+}
+
+/* Up to so many, and not more. */
+static void test_mixtures_of_mixtures(void **state) {
+    (void)state;
+    char text[1000] = "void brightfunc m0 2 3 . 0 0 ";
+    for (int i = 1; i <= 13; i++) {
+        size_t length = strlen(text);
+        snprintf(text + length, sizeof text - length, "void mixfunc m%d 4 m%d void 1 . 0 0 ", i, i - 1);
+        if (i == 12)
+            assert_color(effect_of(text, 0, 0, 0), 3, 3, 3);
+    }
+    assert_refused(text, "more than 12 mixtures of mixtures of mixtures");
 }
 
 static void test_meaningless_words_are_told(void **state) {
@@ -290,6 +305,7 @@ int main(void) {
         cmocka_unit_test(test_mixture_of_materials),
         cmocka_unit_test(test_material_alone),
         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_mixtures_of_mixtures),
         cmocka_unit_test(test_meaningless_words_are_told),
         cmocka_unit_test(test_compute_error),
         cmocka_unit_test(test_normal),

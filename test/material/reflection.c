@@ -30,11 +30,21 @@ static void setting_end(setting *s) {
     written_modifiers_destroy(&s->of);
 }
 
+/* Of a reflectance function, or of WGMDfunc. */
 static setting compiled(const char *text) {
     setting s = setting_of(text);
-    if (s.status)
-        fail_msg("%s: %s", text, messages);
-    return s;
+    if (!s.status && s.reflection)
+        return s;
+    fail_msg("%s: %s", text, messages);
+    abort();
+}
+
+static setting compiled_wgmd(const char *text) {
+    setting s = setting_of(text);
+    if (!s.status && s.wgmd)
+        return s;
+    fail_msg("%s: %s", text, messages);
+    abort();
 }
 
 static void assert_side(material_reflection_side side, rgb diffuse, rgb ambient, rgb function) {
@@ -184,6 +194,10 @@ static void arguments_are_checked(void **state) {
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 2e10", "real argument 9 is above 1e10");
     assert_refused("void BRTDfunc m 10 0 0 0 0 0 0 0 0 0. . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
     assert_refused("void BRTDfunc m 10 0 0 0 q 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0", "BRTDfunc m: ");
+    assert_refused(
+        "void plastic p 0 0 5 .5 .5 .5 0 0 void WGMDfunc m 13 p .1 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 "
+        "0 0 0",
+        "WGMDfunc m: 'p' is a material, not a pattern");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 0 0 0 0 0 0 0 -1 0",
                    "real argument 8 is negative");
     assert_refused("void WGMDfunc m 13 void 0 0 0 void 0 0 0 void 1 0 0 . 0 9 -1 0 0 0 0 0 0 0 0",
@@ -208,7 +222,8 @@ static void what_is_unphysical_is_told(void **state) {
         "void transfunc m 2 max . 0 6 .8 .4 1.2 .25 .6 .5",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        setting s = compiled(texts[i]);
+        setting s = setting_of(texts[i]);
+        assert_int_equal(s.status, GRAZE_OK);
         if (!strstr(messages, ":1:1: ") || !strstr(messages, " m: unphysical"))
             fail_msg("%s: '%s'", texts[i], messages);
         setting_end(&s);
@@ -220,7 +235,8 @@ static void what_is_unphysical_is_told(void **state) {
  */
 static void what_wgmdfunc_transmits(void **state) {
     (void)state;
-    setting s = compiled("void WGMDfunc m 13 lost 0 0 0 void .4 .2 .1 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
+    setting s =
+        compiled_wgmd("void WGMDfunc m 13 lost 0 0 0 void .4 .2 .1 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
     const vec3 normal = {0, 0, 1}, direction = {0.6, 0, -0.8};
     material_wgmd_point at = {.ray = {.point = {0, 0, 0}, .direction = direction, .normal = normal},
                               .model = GRAZE_BRDF_GMD};
@@ -241,7 +257,7 @@ static void what_wgmdfunc_transmits(void **state) {
     assert_true(joined.transmitted_u == 0.2 && joined.transmitted_v == 0.1 && joined.transmits && !joined.fresnel);
     assert_color(material_wgmd_through(s.wgmd, &at), 0, 0, 0);
     setting_end(&s);
-    s = compiled("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
+    s = compiled_wgmd("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .1 .1 .2 .2 .2 .3 .2 .1");
     material_wgmd_prepare(s.wgmd, &at, parts);
     const double fresnel = exp(-5.85 * 0.8) - exp(-5.85), left = 1 - fresnel;
     assert_true(fabs(parts[WGMD_SPECULAR].specular.g - (0.1 + 0.9 * fresnel)) < 1e-6);
@@ -274,7 +290,8 @@ static void what_is_left_of_wgmdfunc(void **state) {
     (void)state;
     static const vec3 directions[] = {{0.6, 0, -0.8}, {0.6, 0, 0.8}, {1, 0, -1e-7}};
     static const double cosines[] = {0.8, 0.8, 1e-3};
-    setting s = compiled("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .2 .3 .4 .5 .6 .3 .2 .1");
+    setting s =
+        compiled_wgmd("void WGMDfunc m 13 void .1 0 .2 void .4 .2 0 void 1 0 0 . 0 9 .1 .2 .3 .4 .5 .6 .3 .2 .1");
     for (int i = 0; i < 3; i++) {
         const material_wgmd_point at = wgmd_point_from(directions[i]);
         const double left = 1 - (exp(-5.85 * cosines[i]) - ROUNDED), more = i == 1 ? 0.3 : 0;
@@ -301,7 +318,7 @@ static void what_functions_of_wgmdfunc_see(void **state) {
         "void WGMDfunc m 15 void RdotP/10 0 0 void NzP*.4 -Nz*.2 -Rdot*.25 void 1 0 0 . -rx 180 0 9 0 0 0 0 0 0 0 0 0",
     };
     for (int i = 0; i < 2; i++) {
-        setting s = compiled(texts[i]);
+        setting s = compiled_wgmd(texts[i]);
         const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, 0.8));
         const double fresnel = exp(-5.85 * 0.8) - ROUNDED;
         graze_surface parts[WGMD_PARTS];
@@ -318,7 +335,8 @@ static void what_functions_of_wgmdfunc_see(void **state) {
 /* Nothing comes through where there is no such part, and none is prepared. */
 static void parts_that_are_not_there(void **state) {
     (void)state;
-    setting s = compiled("void WGMDfunc m 13 inherit .1 .1 .1 inherit 0 .1 .1 lost 1 0 0 . 0 9 .1 .2 .3 0 0 0 0 0 0");
+    setting s =
+        compiled_wgmd("void WGMDfunc m 13 inherit .1 .1 .1 inherit 0 .1 .1 lost 1 0 0 . 0 9 .1 .2 .3 0 0 0 0 0 0");
     const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, -0.8));
     graze_surface parts[WGMD_PARTS] = {{.transmits = 7}, {.transmits = 7}, {.transmits = 7}, {.transmits = 7}};
     assert_true(s.wgmd->has[WGMD_SPECULAR] && s.wgmd->inherits[WGMD_SPECULAR] && !s.wgmd->may_mirror);
@@ -352,7 +370,7 @@ static void what_is_weak_in_wgmdfunc(void **state) {
         snprintf(text, sizeof text,
                  "void WGMDfunc m 13 void %s void .4 0 0 void sqrt(-Px) 0 0 . 0 9 .1 .1 .1 0 0 0 0 0 0",
                  cases[i].specular);
-        setting s = compiled(text);
+        setting s = compiled_wgmd(text);
         const material_wgmd_point at = wgmd_point_from(vec3_make(0.6, 0, -0.8));
         graze_surface parts[WGMD_PARTS];
         material_wgmd_prepare(s.wgmd, &at, parts);

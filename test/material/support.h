@@ -38,6 +38,19 @@ static inline vec3 direction_at(generator *g, vec3 n, double cosine) {
     return vec3_normalize(vec3_add_scaled(vec3_scale(sqrt(1 - cosine * cosine), t), cosine, n));
 }
 
+/* A surface of this material, turned at random and seen under this cosine. */
+static inline graze_surface prepare(const graze_material *m, generator *g, double cosine) {
+    graze_surface s;
+    vec3 n = random_direction(g);
+    graze_surface_prepare(&s, m, n, direction_at(g, n, cosine), NULL);
+    return s;
+}
+
+static inline graze_surface_sample draw(const graze_surface *s, graze_lobe lobe, generator *g) {
+    double r0 = uniform(g), r1 = uniform(g), r2 = uniform(g);
+    return graze_surface_sample_lobe(s, lobe, r0, r1, r2);
+}
+
 static inline double channel(rgb a, int index) {
     return index == 0 ? a.r : index == 1 ? a.g : a.b;
 }

@@ -22,18 +22,6 @@ static graze_material random_trans(generator *g, double least, double most) {
     return m;
 }
 
-static graze_surface prepare(const graze_material *m, generator *g, double cosine) {
-    graze_surface s;
-    vec3 n = random_direction(g);
-    graze_surface_prepare(&s, m, n, direction_at(g, n, cosine), NULL);
-    return s;
-}
-
-static graze_surface_sample draw(const graze_surface *s, graze_lobe lobe, generator *g) {
-    double r0 = uniform(g), r1 = uniform(g), r2 = uniform(g);
-    return graze_surface_sample_lobe(s, lobe, r0, r1, r2);
-}
-
 /* rdiff = 1 - rspec - trans, trans = (1 - rspec) t, tspec = trans p. */
 static void a_trans_divides_its_light(void **state) {
     (void)state;

@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
-from peer import Case, aim, grid, main, normalized, sensors
+from peer import FLOOR, Case, aim, grid, main, sensors
 
 LAMPS = """
 void light lit 0 0 3 9000 8500 8000
@@ -101,7 +101,6 @@ MIXTURES = {
     "mixdata": "mixdata M 7 F B noop modifiers.dat modifiers.cal 1.6*Px Py 0 0",
     "mixpict": "mixpict M 9 F B grey modifiers.hdr modifiers.cal .3+.2*Px .4+.2*Py -rz 10 0 0",
 }
-FLOOR = "void plastic matte 0 0 5 .5 .4 .3 0 0\nmatte polygon floor 0 0 12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
 LAMP = "void light lit 0 0 3 9000 8500 8000\nlit sphere lamp 0 0 4 .5 -.3 4 .01\n"
 # What a pane over the floor is made of, and how the lamp above shines through it.
 PANE = "M polygon pane 0 0 12 -3 -3 1.2 3 -3 1.2 3 3 1.2 -3 3 1.2\n"

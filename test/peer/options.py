@@ -7,11 +7,9 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
-from materials import LAMPS, MATERIALS, PATTERNS, SKY, TEXTURES, board, looks
-from peer import Case, aim, grid, main, normalized, sensors
+from materials import LAMP, LAMPS, MATERIALS, PATTERNS, SKY, TEXTURES, board, looks
+from peer import FLOOR, Case, aim, grid, main, sensors
 
-FLOOR = "void plastic matte 0 0 5 .5 .4 .3 0 0\nmatte polygon floor 0 0 12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
-LAMP = "void light lit 0 0 3 9000 8500 8000\nlit sphere lamp 0 0 4 .5 -.3 4 .01\n"
 GLOWS = """
 void brightfunc bands 2 1.5+.5*sin(3*Dx)*cos(4*Dy) . 0 0
 bands glow bright 0 0 4 1 2 3 0

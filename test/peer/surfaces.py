@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
-from peer import Case, Geometry, aim, grid, main, normalized, sensors
+from peer import FLOOR, Case, Geometry, aim, grid, main, normalized, sensors
 
 # So small that hardly a ray ends in a penumbra.
 LAMPS = """
@@ -47,7 +47,6 @@ def around(count, random, size=1.0):
     return np.c_[targets - np.where(np.arange(count)[:, None] % 3, 4, 0.3) * away, away]
 
 
-FLOOR = "void plastic matte 0 0 5 .5 .4 .3 0 0\nmatte polygon floor 0 0 12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
 # Small, so that rtrace's approximations of their shapes do not show: it takes spheres and rings for squares about their middle,
 # cylinders for lines and triangles for rectangles as large, whose random points (-dj) miss them now and then, and spotlights from spheres and rings differ as much as these are large beside their distance.
 SHINING = {

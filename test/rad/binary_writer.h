@@ -42,4 +42,15 @@ static inline void put_octree_head(binary *b, int object_size) {
         put_text(b, i < 3 ? "-1.5" : "3");
 }
 
+/* An octree, not frozen, of one scene file of so many primitives. */
+static inline binary octree_of_file(const char *file, int primitives) {
+    binary b = {.length = 0};
+    put_octree_head(&b, 4);
+    put_text(&b, file);
+    put_text(&b, "");
+    put_integer(&b, primitives, 4);
+    put_integer(&b, 0, 1);
+    return b;
+}
+
 #endif

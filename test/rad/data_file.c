@@ -53,7 +53,13 @@ static void test_taper(void **state) {
     assert_value(d, 6, 0, 4 / -5. + 8 * 2 / 5.);
     assert_value(d, 1001, 0, 4 / -1000. + 8 * 2 / 1000.);
     /* Below -1: shares 1/(x - i) of the second and -2/(x - i) of the first, i = 0. */
-    assert_value(d, -4, 0, 2 / -4. + 1 * 2 / 4.);
+    d = read_text(memory, "1\n0 3 4\n3 5 4 9\n");
+    assert_non_null(d);
+    assert_value(d, -1, 0, 1);
+    assert_value(d, -1.5, 0, 5 / -1.5 + 3 * 2 / 1.5);
+    assert_value(d, -4, 0, 5 / -4. + 3 * 2 / 4.);
+    assert_value(d, 4, 0, 14);
+    assert_value(d, 4.5, 0, 4 / -3.5 + 9 * 2 / 3.5);
     arena_destroy(memory);
 }
 
@@ -71,17 +77,22 @@ static void test_plane(void **state) {
     arena_destroy(memory);
 }
 
-static void test_falling(void **state) {
+static void test_places(void **state) {
     (void)state;
     arena *memory = arena_create();
     const rad_data *even = read_text(memory, "1 3 1 3 10 20 40"), *uneven = read_text(memory, "1 0 0 3 3 2 1 10 20 40");
+    const rad_data *rising = read_text(memory, "1 0 0 3 .1 .3 .4 10 20 40");
     assert_non_null(even);
     assert_non_null(uneven);
+    assert_true(uneven->axes[0].begin == 3 && uneven->axes[0].length == -2);
     for (double x = 0.2; x < 4; x += 0.3) {
         double expected = x >= 2 ? 20 - 10 * (x - 2) : 20 + 20 * (2 - x);
         assert_value(even, x, 0, expected);
         assert_value(uneven, x, 0, expected);
     }
+    assert_non_null(rising);
+    assert_value(rising, 0.15, 0, 12.5);
+    assert_value(rising, 0.35, 0, 30);
     arena_destroy(memory);
 }
 
@@ -120,7 +131,7 @@ static void test_rest_is_told(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_even_line), cmocka_unit_test(test_taper),   cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_falling),   cmocka_unit_test(test_refused), cmocka_unit_test(test_rest_is_told),
+        cmocka_unit_test(test_places),    cmocka_unit_test(test_refused), cmocka_unit_test(test_rest_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

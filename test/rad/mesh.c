@@ -203,12 +203,7 @@ static void survives_damage(void **state) {
 }
 
 static void write_octree(const char *name, const char *file) {
-    binary b = {.length = 0};
-    put_octree_head(&b, 4);
-    put_text(&b, file);
-    put_text(&b, "");
-    put_integer(&b, 1, 4);
-    put_integer(&b, 0, 1);
+    const binary b = octree_of_file(file, 1);
     write_binary(name, &b);
 }
 

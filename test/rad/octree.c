@@ -2,6 +2,8 @@
 #include "binary_writer.h"
 #include "support.h"
 
+#include "rad/octree.h"
+
 static void write_binary(const char *name, const binary *b) {
     write_bytes(name, b->bytes, b->length);
 }
@@ -59,9 +61,26 @@ static binary frozen(int object_size, int promised) {
     return b;
 }
 
+static bool is_octree(const char *text) {
+    char copy[100];
+    snprintf(copy, sizeof copy, "%s", text);
+    return rad_octree_is(&(whole_file){copy, strlen(copy)});
+}
+
+static void knows_octrees(void **state) {
+    (void)state;
+    assert_true(rad_octree_is_named("a.oct") && rad_octree_is_named("a!.oct") && rad_octree_is_named("a/b.rad.oct"));
+    assert_false(rad_octree_is_named("!oconv a.oct") || rad_octree_is_named(".oct") || rad_octree_is_named("a.octs") ||
+                 rad_octree_is_named("aoct") || rad_octree_is_named(""));
+    assert_true(is_octree("#?RADIANCE\noconv\nFORMAT= Radiance_octree\n\n"));
+    assert_false(
+        is_octree("#?RADIANCEX\nFORMAT=Radiance_octree\n\n") || is_octree("#?RADIANCE\n\nFORMAT=Radiance_octree\n\n") ||
+        is_octree("#?RADIANCE\nFORMAT=Radiance_octrees\n\n") || is_octree("#?RADIANCE\nFORMAT=Radiance_octree\n"));
+}
+
 static void reads_a_frozen_octree(void **state) {
     (void)state;
-    for (int size = 2; size <= 8; size += 2) {
+    for (int size = 1; size <= 8; size++) {
         binary b = frozen(size, 5);
         write_binary("frozen.oct", &b);
         rad_scene *scene = read_good("frozen.oct");
@@ -250,6 +269,7 @@ static void survives_damage(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(knows_octrees),
         cmocka_unit_test(reads_a_frozen_octree),
         cmocka_unit_test(reads_the_files_of_an_octree),
         cmocka_unit_test(octrees_and_files_are_one_scene),

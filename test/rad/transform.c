@@ -45,6 +45,14 @@ static void scale_and_handedness(void **state) {
     assert_true(PARSE("-i", "3", "-mx").mirrored);
 }
 
+static void the_largest_and_the_smallest(void **state) {
+    (void)state;
+    const vec3 unit = {1, 1, 1};
+    assert_point(PARSE("-s", "1e100", "-s", "1e-100"), unit, unit);
+    assert_true(PARSE("-s", "1e100").scale == 1e100 && PARSE("-s", "1e-100").scale == 1e-100);
+    assert_true(PARSE("-t", "1e100", "-1e100", "1e100").m[3][2] == 1e100);
+}
+
 static void iteration(void **state) {
     (void)state;
     vec3 origin = {0, 0, 0};
@@ -103,7 +111,14 @@ static void errors(void **state) {
         {{""}, 1, "bad transform at ''"},
         {{"-"}, 1, "bad transform at '-'"},
         {{"-r"}, 1, "bad transform at '-r'"},
+        {{"-rw", "90"}, 2, "bad transform at '-rw'"},
+        {{"-r{", "90"}, 2, "bad transform at '-r{'"},
+        {{"-m{"}, 1, "bad transform at '-m{'"},
         {{"-s", "1e-200"}, 2, "transform out of range"},
+        {{"-s", "1.0001e100"}, 2, "transform out of range"},
+        {{"-s", "-.9999e-100"}, 2, "transform out of range"},
+        {{"-t", "1.0001e100", "0", "0"}, 4, "transform out of range"},
+        {{"-t", "0", "0", "-1.0001e100"}, 4, "transform out of range"},
         {{"-i", "2000000000", "-s", "2"}, 4, "transform out of range"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
@@ -119,9 +134,13 @@ static void errors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(operations), cmocka_unit_test(scale_and_handedness),
-        cmocka_unit_test(iteration),  cmocka_unit_test(composition),
-        cmocka_unit_test(and_back),   cmocka_unit_test(errors),
+        cmocka_unit_test(operations),
+        cmocka_unit_test(scale_and_handedness),
+        cmocka_unit_test(the_largest_and_the_smallest),
+        cmocka_unit_test(iteration),
+        cmocka_unit_test(composition),
+        cmocka_unit_test(and_back),
+        cmocka_unit_test(errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

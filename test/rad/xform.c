@@ -220,6 +220,23 @@ static void reads_argument_files(void **state) {
     assert_string_equal(primitive_at(scene, 3)->id, "i1.s");
     assert_true(primitive_at(scene, 3)->reals[0] == 2);
     rad_scene_destroy(scene);
+    write_file("names", "-m void\n");
+    scene = read_text("!cat ball.rad | xform -f names -n r\n");
+    assert_string_equal(primitive_at(scene, 1)->id, "r.0.s");
+    rad_scene_destroy(scene);
+}
+
+/* Where what is transformed comes on standard input, options may be the last words. */
+static void options_need_nothing_behind_them(void **state) {
+    (void)state;
+    write_file("ball.rad", "void light l 0 0 3 1 1 1\nl sphere s 0 0 4 0 0 0 1\n");
+    rad_scene *scene =
+        read_text("!cat ball.rad | xform -n a\n!cat ball.rad | xform -m void\n!cat ball.rad | xform -t 1 0 0 -i 3\n");
+    assert_int_equal(primitive_count(scene), 6);
+    assert_string_equal(primitive_at(scene, 1)->id, "a.s");
+    assert_int_equal(primitive_at(scene, 3)->modifier, RAD_VOID);
+    assert_true(primitive_at(scene, 5)->reals[0] == 1);
+    rad_scene_destroy(scene);
 }
 
 static void refuses_bad_commands(void **state) {
@@ -237,11 +254,16 @@ static void refuses_bad_commands(void **state) {
         {"!xform -s 0 ball.rad", "command line error at '-s': a number that is not 0"},
         {"!xform -rx ball.rad", "command line error at '-rx': an angle"},
         {"!xform -t 1 2 3 -n a ball.rad", "command line error at '-n': this belongs before"},
+        {"!xform -t 1 2 3 -m a ball.rad", "command line error at '-m': this belongs before"},
         {"!xform -s 1e90 -s 1e90 ball.rad", "xform: transform out of range"},
         {"!xform -i 1000000000 -s 2 ball.rad", "xform: transform out of range"},
         {"!xform -a ball.rad", "missing count for -a option"},
         {"!xform -a 0 ball.rad", "missing count for -a option"},
+        {"!xform -a -3 ball.rad", "missing count for -a option"},
+        {"!xform -a 3.5 ball.rad", "missing count for -a option"},
         {"!xform -a 20000000000 ball.rad", "more than 10000000 instances"},
+        {"!xform -a 10000001 -t 1 0 0 missing.rad", "more than 10000000 instances"},
+        {"!xform -a 10000000 -t 1 0 0 missing.rad", "cannot find file \"missing.rad\""},
         {"!xform -a 1000000000 -t 1 0 0 missing.rad", "more than 10000000 instances"},
         {"!xform -a 4000 -t 1 0 0 -a 4000 -t 0 1 0 -i 1 missing.rad", "more than 10000000 instances"},
         {"!xform -f", "missing file for -f option"},
@@ -276,6 +298,7 @@ int main(void) {
         cmocka_unit_test(finds_files_from_files),
         cmocka_unit_test(keeps_commands_where_they_are),
         cmocka_unit_test(reads_argument_files),
+        cmocka_unit_test(options_need_nothing_behind_them),
         cmocka_unit_test(refuses_bad_commands),
     };
     return cmocka_run_group_tests(tests, enter_directory, leave_directory);

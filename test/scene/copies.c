@@ -33,12 +33,7 @@ static void write_file(const char *name, const void *bytes, size_t length) {
 
 /* An octree of one scene file of so many primitives. */
 static void write_octree(const char *octree, const char *file, const char *text, int count) {
-    binary b = {.length = 0};
-    put_octree_head(&b, 4);
-    put_text(&b, file);
-    put_text(&b, "");
-    put_integer(&b, count, 4);
-    put_integer(&b, 0, 1);
+    const binary b = octree_of_file(file, count);
     write_file(octree, b.bytes, b.length);
     write_file(file, text, strlen(text));
 }

@@ -39,6 +39,8 @@ PEER = os.environ["GRAZE_PEER_BIN"]
 SEED = os.environ.get("GRAZE_PEER_SEED", "1")
 
 CONVERGED = "-u+ -dj 1 -ds .01 -dt 0 -dc 1 -dr 0 -st 0 -lw 1e-6 -lr -12 -aa 0 -as 0".split()
+# What many scenes stand on.
+FLOOR = "void plastic matte 0 0 5 .5 .4 .3 0 0\nmatte polygon floor 0 0 12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
 
 
 def run(command, data, **environment):

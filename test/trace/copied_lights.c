@@ -29,13 +29,8 @@ static void spotlights_are_turned_with_their_copies(void **state) {
     (void)state;
     const char *disk = "void spotlight s 0 0 7 2 3 4 40 0 0 -1 s ring disk 0 0 8 0 0 0 0 0 -1 0 1";
     char text[200];
-    binary octree = {.length = 0};
     written_file part = written_file_make(disk, strlen(disk));
-    put_octree_head(&octree, 4);
-    put_text(&octree, part.name);
-    put_text(&octree, "");
-    put_integer(&octree, 2, 4);
-    put_integer(&octree, 0, 1);
+    const binary octree = octree_of_file(part.name, 2);
     written_file file = written_file_make(octree.bytes, octree.length);
     snprintf(text, sizeof text, "void instance x 5 %s -ry 90 -s 2 0 0", file.name);
     const double inside = tan(19 * 3.14159265 / 180), outside = tan(21 * 3.14159265 / 180);

@@ -9,9 +9,7 @@
 #include <cmocka.h>
 
 #include "../rad/binary_writer.h"
-#include "base/vector.h"
-#include "graze/trace.h"
-#include "support/scene_text.h"
+#include "one_ray.h"
 
 /* A disk at the origin that faces +z, and where that brings it. */
 #define PLACED       "-rz 30 -rx 90 -s 2 -t 0 3 0"
@@ -41,22 +39,11 @@ static graze_answer answer_of(const char *things, vec3 eye) {
              "light l 0 0 3 40 30 20 l sphere a 0 0 4 1 1 2 "
              ".5 l sphere b 0 0 4 -2 5 1 .5 %s",
              things);
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s: %s", things, messages);
     graze_trace_settings settings = graze_trace_defaults();
     settings.samples = 16384;
     settings.ambient_bounces = 1;
-    const graze_ray ray = {.origin = eye, .direction = vec3_subtract(vec3_make(0.5, 3, 0.3), eye)};
-    graze_answer found;
-    graze_trace(scene, &settings, &ray, 7, &found, NULL);
-    graze_scene_destroy(scene);
-    return found;
-}
-
-static void assert_same(const char *what, double a, double b, double a_error, double b_error) {
-    if (!(a > 0 && fabs(a - b) <= 4.5 * hypot(a_error, b_error) + 1e-9))
-        fail_msg("%s: %.9g and %.9g, +- %g", what, a, b, hypot(a_error, b_error));
+    const vec3 direction = vec3_subtract(vec3_make(0.5, 3, 0.3), eye);
+    return answer_along(text, &settings, (graze_ray){.origin = eye, .direction = direction});
 }
 
 /* A copy is as what is written where it is, with the copy's transform after the material's own arguments. */
@@ -68,13 +55,8 @@ static void copies_are_as_what_is_written_there(void **state) {
             const vec3 eye = {0.1, behind ? 5 : 1, 0.6};
             int length = snprintf(text, sizeof text, "void %s m %d %s %s %s", materials[i].type, materials[i].words,
                                   materials[i].strings, materials[i].reals, disk);
-            binary octree = {.length = 0};
             written_file part = written_file_make(text, (size_t)length);
-            put_octree_head(&octree, 4);
-            put_text(&octree, part.name);
-            put_text(&octree, "");
-            put_integer(&octree, 2, 4);
-            put_integer(&octree, 0, 1);
+            const binary octree = octree_of_file(part.name, 2);
             written_file file = written_file_make(octree.bytes, octree.length);
             snprintf(text, sizeof text, "void instance x %d %s %s 0 0", 1 + PLACED_WORDS, file.name, PLACED);
             graze_answer copy = answer_of(text, eye);
@@ -83,9 +65,8 @@ static void copies_are_as_what_is_written_there(void **state) {
             snprintf(text, sizeof text, "void %s m %d %s %s %s %s", materials[i].type,
                      materials[i].words + PLACED_WORDS, materials[i].strings, PLACED, materials[i].reals, placed_disk);
             graze_answer written = answer_of(text, eye);
-            assert_same(text, copy.value.r, written.value.r, copy.standard_error.r, written.standard_error.r);
-            assert_same(text, copy.value.g, written.value.g, copy.standard_error.g, written.standard_error.g);
-            assert_same(text, copy.value.b, written.value.b, copy.standard_error.b, written.standard_error.b);
+            assert_true(copy.value.r > 0 && copy.value.g > 0 && copy.value.b > 0);
+            assert_answers_agree(text, copy, written);
         }
 }
 

@@ -187,20 +187,23 @@ static void cells_are_where_paths_have_been(void **state) {
     graze_scene_destroy(scene);
 }
 
-/* Two rooms on one floor, the wall between them 10 cm thick, one twenty times as bright as the other. */
-static const char rooms[] = "void plastic white 0 0 5 .7 .7 .7 0 0\n"
-                            "void light lamp 0 0 3 100 100 100\n"
-                            "void light faint 0 0 3 5 5 5\n"
-                            "white polygon floor 0 0 12 0 0 0 8.1 0 0 8.1 4 0 0 4 0\n"
-                            "white polygon top 0 0 12 0 0 3 0 4 3 8.1 4 3 8.1 0 3\n"
-                            "white polygon south 0 0 12 0 0 0 0 0 3 8.1 0 3 8.1 0 0\n"
-                            "white polygon north 0 0 12 0 4 0 8.1 4 0 8.1 4 3 0 4 3\n"
-                            "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
-                            "white polygon east 0 0 12 8.1 0 0 8.1 0 3 8.1 4 3 8.1 4 0\n"
-                            "white polygon near 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
-                            "white polygon far 0 0 12 4.1 0 0 4.1 4 0 4.1 4 3 4.1 0 3\n"
-                            "lamp polygon la 0 0 12 1.5 1.5 2.99 1.5 2.5 2.99 2.5 2.5 2.99 2.5 1.5 2.99\n"
-                            "faint polygon lb 0 0 12 5.5 1.5 2.99 5.5 2.5 2.99 6.5 2.5 2.99 6.5 1.5 2.99\n";
+/* The shell of two rooms on one floor, each 4 by 4 m. */
+#define SHELL                                                                                                          \
+    "void plastic white 0 0 5 .7 .7 .7 0 0\n"                                                                          \
+    "white polygon floor 0 0 12 0 0 0 8.1 0 0 8.1 4 0 0 4 0\n"                                                         \
+    "white polygon top 0 0 12 0 0 3 0 4 3 8.1 4 3 8.1 0 3\n"                                                           \
+    "white polygon south 0 0 12 0 0 0 0 0 3 8.1 0 3 8.1 0 0\n"                                                         \
+    "white polygon north 0 0 12 0 4 0 8.1 4 0 8.1 4 3 0 4 3\n"                                                         \
+    "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"                                                              \
+    "white polygon east 0 0 12 8.1 0 0 8.1 0 3 8.1 4 3 8.1 4 0\n"
+
+/* A wall between them 10 cm thick, one twenty times as bright as the other. */
+static const char rooms[] = SHELL "void light lamp 0 0 3 100 100 100\n"
+                                  "void light faint 0 0 3 5 5 5\n"
+                                  "white polygon near 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+                                  "white polygon far 0 0 12 4.1 0 0 4.1 4 0 4.1 4 3 4.1 0 3\n"
+                                  "lamp polygon la 0 0 12 1.5 1.5 2.99 1.5 2.5 2.99 2.5 2.5 2.99 2.5 1.5 2.99\n"
+                                  "faint polygon lb 0 0 12 5.5 1.5 2.99 5.5 2.5 2.99 6.5 2.5 2.99 6.5 1.5 2.99\n";
 
 static path_hit look_down(void *user, size_t index) {
     const view *v = user;
@@ -241,17 +244,10 @@ static void walls_divide_cells(void **state) {
 }
 
 /* A dark room beside a lit one: light comes through a hole in the wall, 40 by 80 cm. */
-static const char dark_room[] = "void plastic white 0 0 5 .7 .7 .7 0 0\n"
-                                "void light lamp 0 0 3 300 300 300\n"
-                                "white polygon floor 0 0 12 0 0 0 8.1 0 0 8.1 4 0 0 4 0\n"
-                                "white polygon top 0 0 12 0 0 3 0 4 3 8.1 4 3 8.1 0 3\n"
-                                "white polygon south 0 0 12 0 0 0 0 0 3 8.1 0 3 8.1 0 0\n"
-                                "white polygon north 0 0 12 0 4 0 8.1 4 0 8.1 4 3 0 4 3\n"
-                                "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
-                                "white polygon east 0 0 12 8.1 0 0 8.1 0 3 8.1 4 3 8.1 4 0\n"
-                                "white polygon wall 0 0 30 4 0 0 4 0 3 4 4 3 4 4 0 4 2.2 0 4 2.2 1.8 4 1.8 1.8"
-                                " 4 1.8 1 4 2.2 1 4 2.2 0\n"
-                                "lamp polygon la 0 0 12 1.5 1.5 2.99 1.5 2.5 2.99 2.5 2.5 2.99 2.5 1.5 2.99\n";
+static const char dark_room[] =
+    SHELL "void light lamp 0 0 3 300 300 300\n"
+          "white polygon wall 0 0 30 4 0 0 4 0 3 4 4 3 4 4 0 4 2.2 0 4 2.2 1.8 4 1.8 1.8 4 1.8 1 4 2.2 1 4 2.2 0\n"
+          "lamp polygon la 0 0 12 1.5 1.5 2.99 1.5 2.5 2.99 2.5 2.5 2.99 2.5 1.5 2.99\n";
 
 static path_hit look_aside(void *user, size_t index) {
     const view *v = user;

@@ -8,10 +8,8 @@
 
 #include <cmocka.h>
 
-#include "base/vector.h"
 #include "graze/material.h"
-#include "graze/trace.h"
-#include "support/scene_text.h"
+#include "one_ray.h"
 
 /* A floor of a modifier named `m`, seen under a large lamp and a glow, beside a wall and a lamp that goes through it.
  */
@@ -21,35 +19,16 @@ static const char *const around =
     "void plastic w 0 0 5 .5 .6 .7 0 0 w polygon wall 0 0 12 -2 2 0 2 2 0 2 2 2 -2 2 2 "
     "m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0";
 
-typedef struct answer {
-    rgb value, error;
-} answer;
-
-static answer answer_of(const char *materials, graze_strategy strategy, int bounces, double x) {
+static graze_answer answer_of(const char *materials, graze_strategy strategy, int bounces, double x) {
     char text[3000];
     snprintf(text, sizeof text, "%s %s", materials, around);
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s: %s", materials, messages);
     graze_trace_settings settings = graze_trace_defaults();
     settings.strategy = strategy;
     settings.ambient_bounces = bounces;
     settings.samples = 20000;
     const vec3 eye = {0.2, -2, 1.5};
-    const graze_ray ray = {.origin = eye, .direction = vec3_subtract(vec3_make(x, 0.2, 0), eye)};
-    graze_answer found;
-    graze_trace(scene, &settings, &ray, 7, &found, NULL);
-    graze_scene_destroy(scene);
-    return (answer){found.value, found.standard_error};
-}
-
-static void assert_near(const char *what, answer a, rgb expected, rgb error) {
-    double difference[] = {a.value.r - expected.r, a.value.g - expected.g, a.value.b - expected.b};
-    double variance[] = {a.error.r * a.error.r + error.r * error.r, a.error.g * a.error.g + error.g * error.g,
-                         a.error.b * a.error.b + error.b * error.b};
-    for (int c = 0; c < 3; c++)
-        if (!(fabs(difference[c]) <= 4.5 * sqrt(variance[c]) + 1e-9))
-            fail_msg("%s: %g off by %g +- %g", what, rgb_brightness(expected), difference[c], sqrt(variance[c]));
+    return answer_along(text, &settings,
+                        (graze_ray){.origin = eye, .direction = vec3_subtract(vec3_make(x, 0.2, 0), eye)});
 }
 
 #define TEXTURE "void texfunc t 4 .3*sin(9*Px) .2 .1 . 0 0 "
@@ -82,12 +61,12 @@ static void strategies_agree(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
         for (int bounces = 0; bounces <= 1; bounces++) {
-            answer both = answer_of(materials[i], GRAZE_STRATEGY_MIS, bounces, 0.1);
-            answer light = answer_of(materials[i], GRAZE_STRATEGY_LIGHT, bounces, 0.1);
-            answer reflection = answer_of(materials[i], GRAZE_STRATEGY_BRDF, bounces, 0.1);
+            graze_answer both = answer_of(materials[i], GRAZE_STRATEGY_MIS, bounces, 0.1);
+            graze_answer light = answer_of(materials[i], GRAZE_STRATEGY_LIGHT, bounces, 0.1);
+            graze_answer reflection = answer_of(materials[i], GRAZE_STRATEGY_BRDF, bounces, 0.1);
             assert_true(rgb_brightness(both.value) > 0);
-            assert_near(materials[i], light, both.value, both.error);
-            assert_near(materials[i], reflection, both.value, both.error);
+            assert_answers_agree(materials[i], light, both);
+            assert_answers_agree(materials[i], reflection, both);
         }
 }
 
@@ -112,11 +91,13 @@ static void mixtures_are_means(void **state) {
             snprintf(back, sizeof back, "void %s m %s", pairs[i].back, pairs[i].back_values);
             snprintf(both, sizeof both, "void %s a %s void %s b %s void mixfunc m 4 a b .3 . 0 0", pairs[i].fore,
                      pairs[i].fore_values, pairs[i].back, pairs[i].back_values);
-            answer f = answer_of(fore, GRAZE_STRATEGY_MIS, bounces, 0.3);
-            answer b = answer_of(back, GRAZE_STRATEGY_MIS, bounces, 0.3);
-            rgb mean = rgb_add_scaled(rgb_scale(0.3, f.value), 0.7, b.value);
-            rgb error = rgb_add_scaled(rgb_scale(0.3, f.error), 0.7, b.error);
-            assert_near(both, answer_of(both, GRAZE_STRATEGY_MIS, bounces, 0.3), mean, error);
+            graze_answer f = answer_of(fore, GRAZE_STRATEGY_MIS, bounces, 0.3);
+            graze_answer b = answer_of(back, GRAZE_STRATEGY_MIS, bounces, 0.3);
+            const graze_answer mean = {
+                .value = rgb_add_scaled(rgb_scale(0.3, f.value), 0.7, b.value),
+                .standard_error = rgb_add_scaled(rgb_scale(0.3, f.standard_error), 0.7, b.standard_error),
+            };
+            assert_answers_agree(both, answer_of(both, GRAZE_STRATEGY_MIS, bounces, 0.3), mean);
         }
 }
 
@@ -142,8 +123,8 @@ static void void_is_clear(void **state) {
             snprintf(clear, sizeof clear, "void %s void glass b 0 0 4 1 1 1 1 void mixfunc %s . 0 0", others[i],
                      mixed[0]);
             snprintf(nothing, sizeof nothing, "void %s void mixfunc %s . 0 0", others[i], mixed[1]);
-            answer c = answer_of(clear, GRAZE_STRATEGY_MIS, bounces, 0.3);
-            assert_near(nothing, answer_of(nothing, GRAZE_STRATEGY_MIS, bounces, 0.3), c.value, c.error);
+            graze_answer c = answer_of(clear, GRAZE_STRATEGY_MIS, bounces, 0.3);
+            assert_answers_agree(nothing, answer_of(nothing, GRAZE_STRATEGY_MIS, bounces, 0.3), c);
         }
 }
 
@@ -151,10 +132,10 @@ static void void_is_clear(void **state) {
 static void a_pattern_without_a_material_is_void(void **state) {
     (void)state;
     const char *const plain = "void plastic a 0 0 5 .8 .2 .2 .1 .1 void mixfunc m 4 a void .4 . 0 0";
-    answer nothing = answer_of(plain, GRAZE_STRATEGY_MIS, 1, 0.3);
-    answer pattern = answer_of("void brightfunc p 2 .3 . 0 0 void plastic a 0 0 5 .8 .2 .2 .1 .1 "
-                               "void mixfunc m 4 a p .4 . 0 0",
-                               GRAZE_STRATEGY_MIS, 1, 0.3);
+    graze_answer nothing = answer_of(plain, GRAZE_STRATEGY_MIS, 1, 0.3);
+    graze_answer pattern = answer_of("void brightfunc p 2 .3 . 0 0 void plastic a 0 0 5 .8 .2 .2 .1 .1 "
+                                     "void mixfunc m 4 a p .4 . 0 0",
+                                     GRAZE_STRATEGY_MIS, 1, 0.3);
     assert_memory_equal(&nothing, &pattern, sizeof nothing);
 }
 
@@ -177,15 +158,9 @@ static void textures_bend_what_is_seen(void **state) {
             "void brightfunc b 2 noneg(Px) . 0 0 b glow g 0 0 4 1 1 1 0 g polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 "
             "9 0 void texfunc t 4 -.2 0 0 . 0 0 %s p polygon pane 0 0 12 -9 -9 4 9 -9 4 9 9 4 -9 9 4",
             panes[i].material);
-        graze_scene *scene = scene_from_text(text);
-        if (!scene)
-            fail_msg("%s: %s", panes[i].material, messages);
         graze_trace_settings settings = graze_trace_defaults();
         settings.samples = 4096;
-        const graze_ray ray = {.origin = {1, 0, 5}, .direction = {0, 0, -1}};
-        graze_answer found;
-        graze_trace(scene, &settings, &ray, 7, &found, NULL);
-        graze_scene_destroy(scene);
+        graze_answer found = answer_along(text, &settings, (graze_ray){.origin = {1, 0, 5}, .direction = {0, 0, -1}});
         /* Glass lets through what it does at the angle that its normal leans to; whether it mirrors instead is chance.
          */
         const graze_material glass = {.kind = GRAZE_GLASS, .color = {1, 1, 1}, .refraction = 1.25};
@@ -200,27 +175,28 @@ static void textures_bend_what_is_seen(void **state) {
 /* A reflectance function of which no part counts is a diffuse surface. */
 static void a_function_without_weight_is_diffuse(void **state) {
     (void)state;
-    answer plain = answer_of("void plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
-    answer function = answer_of("void metfunc m 2 select . 0 4 .5 .5 .5 0", GRAZE_STRATEGY_MIS, 1, 0.3);
-    assert_near("no function", function, plain.value, plain.error);
+    graze_answer plain = answer_of("void plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    graze_answer function = answer_of("void metfunc m 2 select . 0 4 .5 .5 .5 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    assert_answers_agree("no function", function, plain);
     function =
         answer_of("void brightfunc p 2 2 . 0 0 p metfunc m 2 if . 0 4 .25 .25 .25 0", GRAZE_STRATEGY_MIS, 1, 0.3);
-    assert_near("no function, a pattern", function, plain.value, plain.error);
+    assert_answers_agree("no function, a pattern", function, plain);
 }
 
 static void a_pattern_of_1_changes_nothing(void **state) {
     (void)state;
-    answer plain = answer_of("void plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
-    answer one = answer_of("void brightfunc p 2 1 . 0 0 p plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    graze_answer plain = answer_of("void plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
+    graze_answer one =
+        answer_of("void brightfunc p 2 1 . 0 0 p plastic m 0 0 5 .5 .5 .5 0 0", GRAZE_STRATEGY_MIS, 1, 0.3);
     assert_memory_equal(&plain, &one, sizeof plain);
 }
 
 /* Neither its first material nor its second, bright as they are. */
 static void mixtures_without_a_share_are_black(void **state) {
     (void)state;
-    answer lost = answer_of("void plastic a 0 0 5 .8 .8 .8 .1 0 void metal b 0 0 5 .8 .8 .8 .8 .3 "
-                            "void mixfunc m 4 a b sqrt(-1-Px*Px) . 0 0",
-                            GRAZE_STRATEGY_MIS, 1, 0.3);
+    graze_answer lost = answer_of("void plastic a 0 0 5 .8 .8 .8 .1 0 void metal b 0 0 5 .8 .8 .8 .8 .3 "
+                                  "void mixfunc m 4 a b sqrt(-1-Px*Px) . 0 0",
+                                  GRAZE_STRATEGY_MIS, 1, 0.3);
     assert_non_null(strstr(messages, "mixfunc m: compute error"));
     assert_true(rgb_is_black(lost.value));
 }
