@@ -22,7 +22,8 @@ graze_status scene_shapes_make(scene_shapes *, scene_builder *, size_t first, si
 void scene_shapes_free(scene_shapes *);
 
 /* Puts the shape of a surface to `s`, which may be its own place or that of one before it, with what its material says
- * of it. Its material; or a negative number where there is no surface (reported). To be asked of one after the other. */
+ * of it. Its material; or a negative number where there is no surface (reported). To be asked of one after the other.
+ */
 int scene_shapes_take(scene_builder *, const scene_shapes *, size_t surface, shape *s);
 
 #endif
