@@ -13,15 +13,16 @@ typedef struct block {
     max_align_t bytes[];
 } block;
 
+/* In a cache line of its own, for the thread that uses it. */
 struct arena {
-    block *blocks;   /* all of them, to be freed */
-    char *free;      /* of the block that small pieces come from */
-    size_t left;     /* bytes at `free` */
-    size_t capacity; /* of the next such block */
+    _Alignas(64) block *blocks; /* all of them, to be freed */
+    char *free;                 /* of the block that small pieces come from */
+    size_t left;                /* bytes at `free` */
+    size_t capacity;            /* of the next such block */
 };
 
 arena *arena_create(void) {
-    arena *a = malloc(sizeof *a);
+    arena *a = aligned_alloc(_Alignof(arena), sizeof *a);
     if (a)
         *a = (arena){.capacity = BLOCK_SMALLEST};
     return a;

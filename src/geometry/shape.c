@@ -51,7 +51,7 @@ static vec3 mean_vertex(const vec3 *v, uint32_t count) {
 static double outline_extent(const vec3 *v, uint32_t count) {
     double extent = 0;
     for (uint32_t i = 1; i < count; i++)
-        extent = fmax(extent, vec3_max_abs(vec3_subtract(v[i], v[0])));
+        extent = double_max(extent, vec3_max_abs(vec3_subtract(v[i], v[0])));
     return extent;
 }
 
@@ -249,8 +249,9 @@ static void include_point(vec3 point, vec3 *lower, vec3 *upper) {
 }
 
 static void include_disk(vec3 center, vec3 normal, double radius, vec3 *lower, vec3 *upper) {
-    vec3 reach = {radius * sqrt(fmax(0, 1 - normal.x * normal.x)), radius * sqrt(fmax(0, 1 - normal.y * normal.y)),
-                  radius * sqrt(fmax(0, 1 - normal.z * normal.z))};
+    vec3 reach = {radius * sqrt(double_max(1 - normal.x * normal.x, 0)),
+                  radius * sqrt(double_max(1 - normal.y * normal.y, 0)),
+                  radius * sqrt(double_max(1 - normal.z * normal.z, 0))};
     include_point(vec3_subtract(center, reach), lower, upper);
     include_point(vec3_add(center, reach), lower, upper);
 }

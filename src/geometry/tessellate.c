@@ -10,6 +10,8 @@
  * below which a triangle counts as none: some roundings of double precision. */
 #define STRAIGHT 1e-12
 #define NO_AREA  1e-14
+/* Outlines of no more vertices do without memory of their own. */
+#define FEW 32
 
 typedef struct point2 {
     double x, y;
@@ -23,6 +25,8 @@ typedef struct outline {
     uint32_t count;  /* vertices that differ from the one before them */
     uint32_t *index; /* of the shape's vertices */
     point2 *points;  /* one for each index */
+    uint32_t few_index[FEW];
+    point2 few_points[FEW];
 } outline;
 
 /* Triangles and the vertices beyond the outline's, as they come. */
@@ -51,6 +55,10 @@ static inline point2 subtract2(point2 a, point2 b) {
 static point2 flatten(const outline *o, vec3 vertex) {
     vec3 v = vec3_subtract(vertex, o->polygon->polygon.vertices[0]);
     return (point2){vec3_dot(v, o->axes.x), vec3_dot(v, o->axes.y)};
+}
+
+static bool has_area(const outline *o, point2 a, point2 b, point2 c) {
+    return cross2(subtract2(b, a), subtract2(c, a)) > NO_AREA * o->extent * o->extent;
 }
 
 static vec3 mesh_vertex(const mesh *m, uint32_t index) {
@@ -93,7 +101,7 @@ static void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c) {
     point2 pa = flatten(m->outline, mesh_vertex(m, a));
     point2 pb = flatten(m->outline, mesh_vertex(m, b));
     point2 pc = flatten(m->outline, mesh_vertex(m, c));
-    if (!(cross2(subtract2(pb, pa), subtract2(pc, pa)) > NO_AREA * m->outline->extent * m->outline->extent))
+    if (!has_area(m->outline, pa, pb, pc))
         return;
     void *array = m->triangles;
     bool room = mesh_reserve(m, &array, m->triangle_count, &m->triangle_capacity, sizeof *m->triangles);
@@ -109,14 +117,17 @@ static void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c) {
 /* Lays the vertices into the plane, leaving out repeated ones. */
 static bool outline_make(outline *o, const shape *s) {
     uint32_t count = s->polygon.vertex_count;
-    *o = (outline){.polygon = s, .axes = frame_around(s->polygon.normal)};
-    o->index = malloc(count * sizeof *o->index);
-    o->points = malloc(count * sizeof *o->points);
+    o->polygon = s;
+    o->axes = frame_around(s->polygon.normal);
+    o->extent = 0;
+    o->count = 0;
+    o->index = count > FEW ? malloc(count * sizeof *o->index) : o->few_index;
+    o->points = count > FEW ? malloc(count * sizeof *o->points) : o->few_points;
     if (!o->index || !o->points)
         return false;
     for (uint32_t i = 0; i < count; i++) {
         point2 p = flatten(o, s->polygon.vertices[i]);
-        o->extent = fmax(o->extent, fmax(fabs(p.x), fabs(p.y)));
+        o->extent = double_max(o->extent, double_max(fabs(p.x), fabs(p.y)));
         if (o->count && p.x == o->points[o->count - 1].x && p.y == o->points[o->count - 1].y)
             continue;
         o->index[o->count] = i;
@@ -128,48 +139,81 @@ static bool outline_make(outline *o, const shape *s) {
 }
 
 static void outline_free(outline *o) {
-    free(o->index);
-    free(o->points);
+    if (o->index != o->few_index)
+        free(o->index);
+    if (o->points != o->few_points)
+        free(o->points);
 }
 
-/* Sine of the turn at a corner; -1 where the outline turns back on itself. */
-static double outline_turn(const outline *o, uint32_t i) {
-    point2 before = subtract2(o->points[i], o->points[(i + o->count - 1) % o->count]);
-    point2 after = subtract2(o->points[(i + 1) % o->count], o->points[i]);
+/* Along the outline from a vertex to the next. */
+static point2 outline_edge(const outline *o, uint32_t i) {
+    return subtract2(o->points[i + 1 < o->count ? i + 1 : 0], o->points[i]);
+}
+
+/* Sine of the turn from one edge to the next; -1 where that turns back on itself. */
+static double turn(point2 before, point2 after) {
     double sine = cross2(before, after) / sqrt(dot2(before, before) * dot2(after, after));
     return fabs(sine) <= STRAIGHT && dot2(before, after) < 0 ? -1 : sine;
+}
+
+static bool is_right(point2 edge) {
+    return edge.x > 0 || (edge.x == 0 && edge.y > 0);
 }
 
 /* Convex: it never turns right, and goes round once, so that its edges point to the right in one stretch. */
 static bool outline_is_convex(const outline *o) {
     int changes = 0;
-    point2 last = subtract2(o->points[0], o->points[o->count - 1]);
+    point2 last = outline_edge(o, o->count - 1);
     for (uint32_t i = 0; i < o->count; i++) {
-        if (outline_turn(o, i) < -STRAIGHT)
+        point2 edge = outline_edge(o, i);
+        if (turn(last, edge) < -STRAIGHT)
             return false;
-        point2 edge = subtract2(o->points[(i + 1) % o->count], o->points[i]);
-        bool right = edge.x > 0 || (edge.x == 0 && edge.y > 0);
-        bool last_right = last.x > 0 || (last.x == 0 && last.y > 0);
-        changes += right != last_right;
+        changes += is_right(edge) != is_right(last);
         last = edge;
     }
     return changes == 2;
 }
 
-/* A fan whose every triangle has area: from a vertex between two corners, or else from the middle. */
+/* Finds a vertex between two corners, if there is one. */
+static bool find_hub(const outline *o, uint32_t *hub) {
+    const uint32_t n = o->count;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t before = (i + n - 1) % n, after = (i + 1) % n;
+        point2 in = outline_edge(o, before), out = outline_edge(o, i);
+        if (turn(out, outline_edge(o, after)) <= STRAIGHT || turn(outline_edge(o, (i + n - 2) % n), in) <= STRAIGHT)
+            continue;
+        *hub = i;
+        return true;
+    }
+    return false;
+}
+
+/* A fan around a vertex between two corners: all its triangles have area. */
+static bool keep_fan(const outline *o, uint32_t hub, shape *s, arena *memory) {
+    const uint32_t n = o->count;
+    uint32_t(*triangles)[3] = arena_allocate(memory, n * sizeof *triangles), count = 0;
+    if (!triangles)
+        return false;
+    for (uint32_t k = 1, i = (hub + 1) % n; k + 1 < n; k++) {
+        const uint32_t next = i + 1 < n ? i + 1 : 0;
+        if (has_area(o, o->points[hub], o->points[i], o->points[next])) {
+            triangles[count][0] = o->index[hub];
+            triangles[count][1] = o->index[i];
+            triangles[count++][2] = o->index[next];
+        }
+        i = next;
+    }
+    s->polygon.triangles = (const uint32_t(*)[3])triangles;
+    s->polygon.triangle_count = count;
+    return true;
+}
+
+/* Where no vertex will do, a fan around the middle. */
 static void mesh_add_fan(mesh *m) {
     const outline *o = m->outline;
-    uint32_t n = o->count;
-    for (uint32_t i = 0; i < n; i++) {
-        if (outline_turn(o, (i + 1) % n) <= STRAIGHT || outline_turn(o, (i + n - 1) % n) <= STRAIGHT)
-            continue;
-        for (uint32_t k = 1; k + 1 < n; k++)
-            mesh_add_triangle(m, o->index[i], o->index[(i + k) % n], o->index[(i + k + 1) % n]);
-        return;
-    }
     uint32_t middle = mesh_add_vertex(m, o->polygon->polygon.center);
-    for (uint32_t i = 0; i < n && !m->out_of_memory; i++)
-        mesh_add_triangle(m, middle, o->index[i], o->index[(i + 1) % n]);
+    for (uint32_t i = 0; i < o->count && !m->out_of_memory; i++)
+        mesh_add_triangle(m, middle, o->index[i], o->index[(i + 1) % o->count]);
 }
 
 /* GLU carries a vertex as a pointer: its index and one, so that it is never null. */
@@ -290,21 +334,35 @@ static bool mesh_keep(const mesh *m, shape *s, arena *memory) {
     return true;
 }
 
-graze_status shape_tessellate(shape *polygon, arena *memory, const rad_primitive *p, const graze_report *report) {
-    outline o;
-    mesh m = {.outline = &o};
-    m.out_of_memory = !outline_make(&o, polygon);
+/* The polygon is convex, or not: then by GLU. */
+static graze_status keep_mesh(const outline *o, bool convex, shape *polygon, arena *memory, const rad_primitive *p,
+                              const graze_report *report) {
+    mesh m = {.outline = o};
     graze_status status = GRAZE_OK;
-    if (!m.out_of_memory && o.count >= 3) {
-        if (outline_is_convex(&o))
-            mesh_add_fan(&m);
-        else
-            status = mesh_add_by_glu(&m, p, report);
-    }
+    if (convex)
+        mesh_add_fan(&m);
+    else if (o->count >= 3)
+        status = mesh_add_by_glu(&m, p, report);
     if (status == GRAZE_OK && (m.out_of_memory || !mesh_keep(&m, polygon, memory)))
         status = report_out_of_memory(report);
     free(m.triangles);
     free(m.extra);
+    return status;
+}
+
+graze_status shape_tessellate(shape *polygon, arena *memory, const rad_primitive *p, const graze_report *report) {
+    outline o;
+    uint32_t hub;
+    graze_status status = GRAZE_OK;
+    if (!outline_make(&o, polygon)) {
+        status = report_out_of_memory(report);
+    } else {
+        bool convex = o.count >= 3 && outline_is_convex(&o);
+        if (!convex || !find_hub(&o, &hub))
+            status = keep_mesh(&o, convex, polygon, memory, p, report);
+        else if (!keep_fan(&o, hub, polygon, memory))
+            status = report_out_of_memory(report);
+    }
     outline_free(&o);
     return status;
 }

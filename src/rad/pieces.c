@@ -24,8 +24,10 @@ typedef struct found {
     place *where;
 } found;
 
+/* Each in cache lines of its own, for the thread that reads it. */
 typedef struct piece {
-    rad_source source;
+    _Alignas(64) rad_source source;
+    rad_context context;
     rad_reader reader;
     graze_report quiet;
     bool said_something;
@@ -176,12 +178,12 @@ static graze_status take_piece(void *user, void *chunk) {
 /* ---- All of it ---- */
 
 static bool prepare_piece(piece *p, const rad_source *whole) {
-    *p = (piece){.quiet = {note, p}};
+    *p = (piece){.quiet = {note, p}, .context = *whole->context};
     arena *memory = arena_create();
     rad_reader_begin(&p->reader, memory, &p->quiet);
     /* What goes on for long would be read again and again where it is no primitive after all. */
     p->source = (rad_source){
-        .reader = &p->reader, .name = whole->name, .context = whole->context, .arguments_most = ARGUMENTS_MOST};
+        .reader = &p->reader, .name = whole->name, .context = &p->context, .arguments_most = ARGUMENTS_MOST};
     return memory != NULL;
 }
 
@@ -197,8 +199,10 @@ static void end_piece(piece *p, arena *memory) {
 graze_status rad_pieces_read(rad_source *s) {
     rad_reader *reader = s->reader;
     int count = pipeline_chunk_count(reader->threads);
-    piece *pieces = calloc((size_t)count, sizeof *pieces);
+    piece *pieces = aligned_alloc(_Alignof(piece), (size_t)count * sizeof *pieces);
     bool ready = pieces != NULL;
+    if (ready)
+        memset(pieces, 0, (size_t)count * sizeof *pieces);
     for (int i = 0; i < count && ready; i++)
         ready = prepare_piece(&pieces[i], s);
     int line, column;

@@ -19,6 +19,9 @@ typedef struct scene_builder {
 /* Notes that something has gone wrong, which has been reported. */
 void scene_fail(scene_builder *, graze_status);
 
+/* That may build, at least 1. */
+int scene_builder_threads(const scene_builder *);
+
 /* Sees to it that there are modifiers, which patterns and functions are compiled with. */
 graze_status scene_need_modifiers(scene_builder *);
 
@@ -41,10 +44,6 @@ int scene_nothing(scene_builder *);
 
 /* What a material says that it is seen as, by its one string argument: an index into materials. */
 graze_status scene_read_alternate(scene_builder *, const rad_primitive *, int *alternate);
-
-/* The shape of a surface, with what its material says of it. Its material; or a negative number where there is no
- * surface (reported). */
-int scene_read_shape(scene_builder *, int primitive, shape *);
 
 /* What shines among the scene's own surfaces by a mixture is given its lights. After all other lights of the scene. */
 void scene_add_mixed_lights(scene_builder *);

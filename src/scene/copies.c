@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "scene/ambient_choice.h"
-#include "scene/builder.h"
+#include "scene/shapes.h"
 
 /* A light that only is seen: in copies and mixtures there are no others, as in Radiance. Made once for each material;
  * its number, or -1 where it is black. */
@@ -52,16 +52,11 @@ static scene_surface make_surface(scene_builder *b, int primitive, int material,
     };
 }
 
-static bool has_shape(const rad_primitive *p) {
-    return rad_type_is_surface(p->type) && p->type != RAD_SOURCE && p->type != RAD_MESH && p->type != RAD_INSTANCE;
-}
-
-static void add_surface(scene_builder *b, scene_part *part, int primitive) {
+static void add_surface(scene_builder *b, scene_part *part, const scene_shapes *made, size_t number) {
     shape *s = &part->shapes[part->surface_count];
-    int material = scene_read_shape(b, primitive, s);
+    int primitive = made->primitives[number], material = scene_shapes_take(b, made, number, s);
     if (material >= 0)
-        part->surfaces[part->surface_count++] =
-            make_surface(b, primitive, material, s, &b->scene->primitives[primitive]);
+        part->surfaces[part->surface_count++] = make_surface(b, primitive, material, s, &made->all[primitive]);
 }
 
 static bool allocate_surfaces(scene_part *part, size_t count) {
@@ -72,19 +67,25 @@ static bool allocate_surfaces(scene_part *part, size_t count) {
 
 static void add_octree(scene_builder *b, scene_part *part, const rad_part *from) {
     const rad_primitive *primitives = b->scene->primitives;
-    size_t count = 0;
-    for (size_t i = from->first; i < from->first + from->count; i++)
-        count += has_shape(&primitives[i]);
+    const size_t end = from->first + from->count;
+    size_t count = 0, next = 0;
+    for (size_t i = from->first; i < end; i++)
+        count += scene_has_shape(&primitives[i]);
     if (!allocate_surfaces(part, count)) {
         scene_fail(b, report_out_of_memory(b->report));
         return;
     }
-    for (size_t i = from->first; i < from->first + from->count; i++) {
-        if (has_shape(&primitives[i]))
-            add_surface(b, part, (int)i);
+    scene_shapes made;
+    graze_status status = scene_shapes_make(&made, b, from->first, end, part->shapes);
+    if (status)
+        scene_fail(b, status);
+    for (size_t i = from->first; i < end && !status; i++) {
+        if (scene_has_shape(&primitives[i]))
+            add_surface(b, part, &made, next++);
         else if (primitives[i].type == RAD_SOURCE)
             rad_primitive_warning(b->report, &primitives[i], "a source in an instance does nothing");
     }
+    scene_shapes_free(&made);
 }
 
 /* The surface of a triangle. Those without a material of their own get the mesh's modifier. */

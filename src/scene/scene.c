@@ -12,6 +12,7 @@
 #include "scene/mist.h"
 #include "scene/model_choice.h"
 #include "scene/sight_cells.h"
+#include "scene/shapes.h"
 
 const char *scene_name(const graze_scene *scene, int primitive) {
     return scene->primitives[primitive].id;
@@ -41,44 +42,13 @@ void scene_fail(scene_builder *b, graze_status status) {
         b->status = status;
 }
 
-static int threads_of(const scene_builder *b) {
+int scene_builder_threads(const scene_builder *b) {
     return b->settings->threads > 1 ? b->settings->threads : 1;
 }
 
 static void add_light(scene_builder *b, scene_light light) {
     if (!rgb_is_black(light.radiance))
         b->scene->lights[b->scene->light_count++] = light;
-}
-
-/* A flat surface across its own orientation vector: told here, once, for no ray could tell it. */
-static void check_orientation(const scene_builder *b, const rad_primitive *surface, const shape *s,
-                              const scene_material *material) {
-    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->kind != SCENE_REFLECTOR || !material->reflector.has_orientation)
-        return;
-    vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
-    graze_surface probe;
-    int illegal = 0;
-    graze_surface_prepare(&probe, &material->reflector, normal, normal, &illegal);
-    if (illegal)
-        rad_primitive_warning(b->report, surface,
-                              "lies across the orientation vector of its material, which is then isotropic");
-}
-
-int scene_read_shape(scene_builder *b, int primitive, shape *s) {
-    graze_scene *scene = b->scene;
-    const rad_primitive *p = &scene->primitives[primitive];
-    int material = scene_material_of_surface(b, p);
-    bool degenerate = false;
-    graze_status status = shape_from_primitive(s, &degenerate, p, scene->memory, b->report);
-    if (status != GRAZE_OK)
-        scene_fail(b, status);
-    if (status != GRAZE_OK || degenerate || material < 0)
-        return -1;
-    check_orientation(b, p, s, &scene->materials[material]);
-    s->shines = scene_material_emits(&scene->materials[material]);
-    s->passes = scene_material_is_pane(scene, &scene->materials[material]);
-    return material;
 }
 
 /* Flat mirrors, in which lights are sampled. */
@@ -113,10 +83,11 @@ static void add_bound(scene_builder *b, mist_material *mist, const shape *bound)
     mist->bounds[mist->bound_count++] = *bound;
 }
 
-static void add_shape(scene_builder *b, int primitive) {
+static void add_shape(scene_builder *b, const scene_shapes *made, size_t number) {
     graze_scene *scene = b->scene;
     size_t index = scene->surface_count;
-    int material = scene_read_shape(b, primitive, &scene->shapes[index]);
+    int primitive = made->primitives[number];
+    int material = scene_shapes_take(b, made, number, &scene->shapes[index]);
     if (material < 0)
         return;
     if (scene->materials[material].mist >= 0) {
@@ -203,11 +174,13 @@ static void survey_sources(graze_scene *scene) {
 /* The surfaces in the description's order; then the sources, `light` before `glow`, as a ray prefers them. */
 static void add_surfaces(scene_builder *b) {
     graze_scene *scene = b->scene;
-    for (size_t i = 0; i < b->own; i++) {
-        const rad_primitive *p = &scene->primitives[i];
-        if (rad_type_is_surface(p->type) && p->type != RAD_SOURCE && p->type != RAD_MESH && p->type != RAD_INSTANCE)
-            add_shape(b, (int)i);
-    }
+    scene_shapes made;
+    graze_status status = scene_shapes_make(&made, b, 0, b->own, scene->shapes);
+    if (status)
+        scene_fail(b, status);
+    for (size_t i = 0; i < made.count && !status; i++)
+        add_shape(b, &made, i);
+    scene_shapes_free(&made);
     scene->first_source = scene->light_count;
     for (int glow = 0; glow <= 1 && rad_scene_count(scene->description, RAD_SOURCE) > 0; glow++)
         for (size_t i = 0; i < b->own; i++)
@@ -250,7 +223,7 @@ static bool has_copies(const graze_scene *scene) {
 
 static graze_status read_description(scene_builder *b, const char *const *names, size_t count) {
     graze_scene *scene = b->scene;
-    graze_status status = rad_scene_read_by(threads_of(b), &scene->description, names, count, b->report);
+    graze_status status = rad_scene_read_by(scene_builder_threads(b), &scene->description, names, count, b->report);
     if (status)
         return status;
     (void)rad_scene_primitives(scene->description, &b->own);
@@ -299,7 +272,7 @@ static graze_status build_geometry(scene_builder *b) {
         const scene_part *part = &scene->parts[i];
         groups[i] = (geometry_group){part->shapes, part->surface_count, part->placements, part->copy_count};
     }
-    graze_status status = geometry_build(&scene->geometry, groups, count, threads_of(b), b->report);
+    graze_status status = geometry_build(&scene->geometry, groups, count, scene_builder_threads(b), b->report);
     free(groups);
     if (status == GRAZE_OK && needs_sights(scene))
         status = geometry_prepare_sights(scene->geometry, b->report);
@@ -324,11 +297,11 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK)
         b.status = add_all(&b);
     if (b.status == GRAZE_OK)
-        b.status = scene_cuts_make(scene, threads_of(&b), report);
+        b.status = scene_cuts_make(scene, scene_builder_threads(&b), report);
     if (b.status == GRAZE_OK)
-        b.status = scene_mist_make(scene, threads_of(&b), report);
+        b.status = scene_mist_make(scene, scene_builder_threads(&b), report);
     if (b.status == GRAZE_OK)
-        b.status = light_patterns_prepare(scene, threads_of(&b), report);
+        b.status = light_patterns_prepare(scene, scene_builder_threads(&b), report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
