@@ -77,20 +77,11 @@ static void make_record(void *user, size_t index, int worker) {
         gather(s, sampler_key(s->trace->seed, index, 0x4000000u), r);
 }
 
-/* Whether nothing but a diffuse reflection finds the light: a glow in a copy or a mixture that lights what is about. */
-static bool is_only_met(const scene_light *light) {
-    return light->only_seen && light->glow && light->glow_radius >= 0;
-}
-
 /* Diffuse reflections that only ask for indirect light find no lights, so these must all be sampled. What comes
  * straight through panes or by one mirror is; by more mirrors it counts as indirect (trace/path.c). */
 static bool is_of_use(const shared_light *s) {
-    const graze_scene *scene = s->scene;
-    /* Those that are only seen lie behind the others. */
-    for (size_t i = 0; i < scene->seen_light_count; i++)
-        if (is_only_met(&scene->lights[scene->light_count + i]))
-            return false;
-    return s->cache && s->settings->aperture == 0 && s->settings->shutter == 0 && context_samples_glows(s->trace);
+    return s->cache && !s->scene->meets_glows && s->settings->aperture == 0 && s->settings->shutter == 0 &&
+           context_samples_glows(s->trace);
 }
 
 static void lay_out(shared_light *s) {

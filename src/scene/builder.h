@@ -48,6 +48,9 @@ graze_status scene_read_alternate(scene_builder *, const rad_primitive *, int *a
 /* What shines among the scene's own surfaces by a mixture is given its lights. After all other lights of the scene. */
 void scene_add_mixed_lights(scene_builder *);
 
+/* Of what only is seen, samples what lights others, as far as it can be. After all lights and copies. */
+void scene_add_copied_lights(scene_builder *);
+
 /* Builds what the instances and meshes of all parts are copies of; graze_scene.parts are then filled in. */
 void scene_add_copies(scene_builder *);
 

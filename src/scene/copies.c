@@ -13,8 +13,8 @@ static int seen_light(scene_builder *b, int material, const shape *s, const rad_
         return m->seen_light;
     if (!m->light.glow || m->light.glow_radius > 0)
         rad_primitive_warning(b->report, surface,
-                              "shines, but lights nothing: what is in %s is seen only, as in Radiance",
-                              mixed ? "a mixture" : "an octree or a mesh");
+                              "shines, but lights nothing%s: what is in %s is seen only, as in Radiance",
+                              m->light.glow ? " within its radius" : "", mixed ? "a mixture" : "an octree or a mesh");
     m->seen_light = (int)(scene->light_count + scene->seen_light_count++);
     scene_light *light = &scene->lights[m->seen_light];
     *light = m->light;

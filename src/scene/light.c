@@ -35,15 +35,26 @@ static rgb within_range(rgb a) {
                  fmin(fmax(a.b, 0), SCENE_LARGEST_RADIANCE)};
 }
 
+/* To where the transform leads from. */
+static void move(material_ray *ray, const rad_transform *t) {
+    ray->point = rad_transform_point_back(t, ray->point);
+    ray->direction = rad_transform_direction_back(t, ray->direction);
+    ray->normal = rad_transform_direction_back(t, ray->normal);
+    ray->distance /= t->scale;
+    ray->last_distance /= t->scale;
+}
+
 rgb light_pattern_radiance(const scene_light *light, rgb radiance, vec3 point, vec3 direction, vec3 normal,
                            double distance, double travelled) {
     if (rgb_is_black(radiance))
         return radiance;
-    const material_ray ray = {.point = point,
-                              .direction = direction,
-                              .normal = light->shape ? normal : vec3_negate(direction),
-                              .distance = travelled + distance,
-                              .last_distance = distance};
+    material_ray ray = {.point = point,
+                        .direction = direction,
+                        .normal = light->shape ? normal : vec3_negate(direction),
+                        .distance = travelled + distance,
+                        .last_distance = distance};
+    if (light->frame)
+        move(&ray, light->frame);
     return within_range(rgb_multiply(radiance, material_modify(light->modifiers, &ray).color));
 }
 

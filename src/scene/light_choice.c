@@ -45,7 +45,7 @@ static bool can_reach(const graze_scene *scene, int index, const light_receiver 
     const scene_light *light = &scene->lights[index];
     const light_entries *e = &scene->light_tree.entries;
     size_t i = scene->light_tree.entry_of[index];
-    if (scene->light_tree.group_of[index] < 0 || (light->glow && light->glow_radius == 0 && !ambient))
+    if (scene->light_tree.group_of[index] < 0 || (light_is_ambient(light) && !ambient))
         return false;
     vec3 middle = {e->x[i], e->y[i], e->z[i]}, axis = {(double)e->ax[i], (double)e->ay[i], (double)e->az[i]};
     vec3 to_middle = light->shape ? vec3_subtract(middle, point) : middle;

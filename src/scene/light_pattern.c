@@ -46,6 +46,14 @@ static rgb at_least(rgb mean, rgb radiance) {
                  fmax(mean.b, LEAST_PART * radiance.b)};
 }
 
+/* All copies are taken for as bright as the first. */
+static rgb typical_of_copies(graze_scene *scene, const scene_light *light) {
+    scene_light *all = &scene->lights[light->seen_as];
+    if (rgb_is_black(all->typical))
+        all->typical = at_least(mean_of_shape(light), light->radiance);
+    return all->typical;
+}
+
 graze_status light_patterns_prepare(graze_scene *scene, int threads, const graze_report *report) {
     graze_status status = GRAZE_OK;
     for (size_t i = 0; i < scene->light_count && !status; i++) {
@@ -53,6 +61,10 @@ graze_status light_patterns_prepare(graze_scene *scene, int threads, const graze
         light->typical = light->radiance;
         if (!light->modifiers)
             continue;
+        if (light->only_seen) {
+            light->typical = typical_of_copies(scene, light);
+            continue;
+        }
         rgb mean = {0, 0, 0};
         source_table *table = NULL;
         if (light->shape)

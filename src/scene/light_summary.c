@@ -105,7 +105,7 @@ light_summary light_summarize(const light_tree *t, const scene_light *light) {
     if (vec3_max_abs(m.axis) == 0)
         m.cosine = -1;
     m.core = m.area / PI;
-    if (!light->glow || light->glow_radius > 0)
+    if (!light_is_ambient(light))
         m.radiance = light->typical;
     if (light->glow)
         m.ambient = light->typical;

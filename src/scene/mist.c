@@ -30,7 +30,7 @@ graze_status scene_mist_read(mist_material *m, const rad_primitive *p, const gra
 /* The last light of that name, or -1. */
 static int find_light(const graze_scene *scene, const char *name) {
     for (size_t i = scene->light_count; i-- > 0;)
-        if (!strcmp(scene_name(scene, scene->lights[i].primitive), name))
+        if (!scene->lights[i].only_seen && !strcmp(scene_name(scene, scene->lights[i].primitive), name))
             return (int)i;
     return -1;
 }

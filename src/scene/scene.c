@@ -193,7 +193,8 @@ static void add_surfaces(scene_builder *b) {
 static bool needs_sights(const graze_scene *scene) {
     for (size_t i = 0; i < scene->light_count; i++) {
         const scene_light *light = &scene->lights[i];
-        if (!light->spot && (light->shape ? light->shape->kind != SHAPE_CONE : light->half_angle < PI / 2))
+        if (!light->spot && !light->only_seen &&
+            (light->shape ? light->shape->kind != SHAPE_CONE : light->half_angle < PI / 2))
             return true;
     }
     return false;
@@ -258,6 +259,8 @@ static graze_status add_all(scene_builder *b) {
     scene_add_mixed_lights(b);
     if (has_copies(scene) && b->status != GRAZE_SYSTEM_ERROR)
         scene_add_copies(b);
+    if (scene->seen_light_count > 0 && b->status == GRAZE_OK)
+        scene_add_copied_lights(b);
     return b->status;
 }
 

@@ -35,7 +35,7 @@ typedef struct scene_light {
     rgb typical;                        /* the mean of the radiance, patterns and all; never black */
     const struct source_table *table;   /* of a source with patterns; else null */
     const shape *shape;                 /* null for a source */
-    int surface;                        /* index of the shape; -1 for a source */
+    int64_t surface;                    /* its number; -1 for a source */
     int primitive;                      /* of the surface, in the description */
     bool secondary;                     /* of the material illum: its surface is seen as another material */
     bool glow;
@@ -48,7 +48,14 @@ typedef struct scene_light {
     bool alone;         /* of a source: no part of it is a source's that is before it in the scene's lights */
     double half_angle;  /* of a source, radians */
     bool only_seen;     /* it is in a copy, or a mixture: no light for others, but of a glow beyond its radius */
+    int seen_as;        /* of a glow in a copy that is sampled: the light that stands for all such copies */
+    const rad_transform *frame; /* from where its patterns are written to the scene; null: they are written there */
 } scene_light;
+
+/* Whether it is LIGHT_AMBIENT, if anything, to all points. */
+static inline bool light_is_ambient(const scene_light *light) {
+    return light->glow && (light->glow_radius == 0 || light->only_seen);
+}
 
 typedef enum scene_material_kind {
     SCENE_REFLECTOR, /* what include/graze/material.h knows: opaque, transmitting, clear, or a mirror */
@@ -145,9 +152,11 @@ struct graze_scene {
     scene_light *lights;     /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;
-    size_t first_source; /* lights[first_source ..] are sources: `light` ones before `glow` ones */
-    bool has_sky;        /* one of them is so wide that it is a sky */
-    bool suns_overlap;   /* a direction is in two of the `light` ones */
+    size_t copied_light_count; /* the last of the shapes, in the order of their numbers, are glows in copies */
+    bool meets_glows;          /* that light what is about but are not sampled: in mixtures, or too many copies */
+    size_t first_source;       /* lights[first_source ..] are sources: `light` ones before `glow` ones */
+    bool has_sky;              /* one of them is so wide that it is a sky */
+    bool suns_overlap;         /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
     struct sight_cells *sight_cells; /* null: none */

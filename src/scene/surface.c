@@ -3,7 +3,20 @@
 
 #include "rad/transform.h"
 
-scene_surface scene_copied_surface(const graze_scene *scene, int64_t number) {
+/* The light that this surface is alone, or what all copies are seen as. */
+static int copied_light(const graze_scene *scene, int64_t number, int seen) {
+    size_t end = scene->first_source, low = end - scene->copied_light_count, high = end;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (scene->lights[middle].surface < number)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < end && scene->lights[low].surface == number ? (int)low : seen;
+}
+
+static scene_surface copied_surface(const graze_scene *scene, int64_t number) {
     int part = 0, copy;
     while ((copy = geometry_descend(scene->geometry, part, &number)) >= 0) {
         const scene_copy *c = &scene->parts[part].copies[copy];
@@ -12,6 +25,13 @@ scene_surface scene_copied_surface(const graze_scene *scene, int64_t number) {
         part = c->part;
     }
     return scene->parts[part].surfaces[number];
+}
+
+scene_surface scene_copied_surface(const graze_scene *scene, int64_t number) {
+    scene_surface surface = copied_surface(scene, number);
+    if (surface.light >= 0 && scene->copied_light_count > 0)
+        surface.light = copied_light(scene, number, surface.light);
+    return surface;
 }
 
 bool scene_material_is_moved(const graze_scene *scene, int64_t number, rad_transform *transform) {

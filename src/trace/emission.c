@@ -9,7 +9,7 @@
 /* The weight of an emitter found by a sampled reflection, against the same found by sampling lights. */
 static double found_weight(const path *p, const path_hit *hit, light_role role) {
     const scattering *last = &p->last;
-    if (last->refracted || p->context->scene->lights[hit->light].only_seen)
+    if (last->refracted || hit->light >= (int)p->context->scene->light_count)
         return 1;
     bool rival = role == LIGHT_DIRECT ? context_samples_lights(p->context->settings)
                                       : context_samples_glows(p->context->settings);

@@ -42,10 +42,12 @@ static bool has_one_role(const scene_light *light) {
 
 static geometry_visibility visibility(const graze_scene *scene, const vertex *v, int index) {
     const scene_light *light = &scene->lights[index];
+    if (light->only_seen)
+        return GEOMETRY_MIXED;
     return geometry_sight_of(scene->geometry, &(geometry_sight){.point = v->point,
                                                                 .normal = v->normal,
                                                                 .from = v->surface,
-                                                                .light = light->surface,
+                                                                .light = (int)light->surface,
                                                                 .axis = light->center,
                                                                 .half_angle = light->half_angle});
 }

@@ -1,6 +1,7 @@
 /* Pictures whose pixels share indirect light: the same on any number of threads, true, and sooner. */
 #include <stdio.h>
 
+#include "../rad/binary_writer.h"
 #include "picture/state.h"
 #include "picture/support.h"
 
@@ -132,6 +133,26 @@ static void lights_that_are_only_met_are_not_lost(void **state) {
     sitting_end(&met);
 }
 
+/* The same in a copy is sampled where it stands. */
+static void light_of_copies_is_shared(void **state) {
+    (void)state;
+    static const char lamp[] = "void glow bright 0 0 4 9 9 9 0\n"
+                               "bright polygon shutter 0 0 12 .4 .2 0 2.2 .2 0 2.2 1.2 0 .4 1.2 0\n";
+    binary octree = {.length = 0};
+    written_file part = written_file_make(lamp, strlen(lamp));
+    put_octree_head(&octree, 4);
+    put_text(&octree, part.name);
+    put_text(&octree, "");
+    put_integer(&octree, 2, 4);
+    put_integer(&octree, 0, 1);
+    written_file file = written_file_make(octree.bytes, octree.length);
+    char text[sizeof rooms + 128];
+    snprintf(text, sizeof text, "%svoid instance x 7 %s -ry -90 -t 3.4 0 0 0 0\n", rooms, file.name);
+    assert_true_picture(text, 1);
+    unlink(file.name);
+    unlink(part.name);
+}
+
 static int pixels_of_few_samples(const sitting *s) {
     int count = 0;
     for (int i = 0; i < ALL; i++)
@@ -175,6 +196,7 @@ int main(void) {
         cmocka_unit_test(what_is_shared_is_true),
         cmocka_unit_test(what_is_shared_beside_panes_and_mirrors_is_true),
         cmocka_unit_test(lights_that_are_only_met_are_not_lost),
+        cmocka_unit_test(light_of_copies_is_shared),
         cmocka_unit_test(most_pixels_share),
         cmocka_unit_test(stopping_changes_nothing),
     };

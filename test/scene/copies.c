@@ -144,15 +144,16 @@ static void lights_in_copies_are_only_seen(void **state) {
                  "void glow g 0 0 4 1 1 1 0\ng sphere c 0 0 4 6 0 0 1\nl source s 0 0 4 0 0 1 1\n",
                  6);
     graze_scene *scene = load(BASE "void instance x 1 lamp.oct 0 0\n");
-    assert_int_equal(scene->light_count, 0);
+    assert_int_equal(scene->light_count, 1); /* the glow */
     assert_int_equal(scene->seen_light_count, 2);
+    assert_false(scene->meets_glows);
     const char *first = strstr(messages, "sphere a: shines, but lights nothing");
     assert_non_null(first);
     assert_null(strstr(messages, "sphere b"));
     assert_null(strstr(messages, "sphere c"));
     assert_non_null(strstr(messages, "source s: a source in an instance does nothing"));
     int light = scene_surface_at(scene, hit(scene, vec3_make(3, 0, -5), vec3_make(0, 0, 1))).light;
-    assert_int_equal(light, 0);
+    assert_int_equal(light, 1);
     assert_true(scene->lights[light].only_seen && scene->lights[light].radiance.r == 2);
     graze_scene_destroy(scene);
     assert_refused(BASE "void light l 0 0 3 1 1 1\nl instance x 1 lamp.oct 0 0\n",
@@ -161,6 +162,46 @@ static void lights_in_copies_are_only_seen(void **state) {
     write_mesh("lamp.rtm", "plastic", 0, 0);
     assert_refused(BASE "void light l 0 0 3 1 1 1\nl mesh x 1 lamp.rtm 0 0\n", "mesh x: meshes cannot be lights");
     graze_scene_destroy(load(BASE "void glow l 0 0 4 1 1 1 0\nl mesh x 1 lamp.rtm 0 0\n"));
+}
+
+/* Each copy of a glow that lights what is about is a light by itself, before the sources, in the order of numbers. */
+static void glows_in_copies_are_lights_where_they_stand(void **state) {
+    (void)state;
+    write_octree("inner.oct", "inner.rad",
+                 "void glow g 0 0 4 1 1 1 0\nvoid glow seen 0 0 4 1 1 1 -1\nvoid plastic p 0 0 5 .5 .5 .5 0 0\n"
+                 "p sphere a 0 0 4 0 0 0 .1\ng sphere b 0 0 4 1 0 0 .1\nseen sphere c 0 0 4 2 0 0 .1\n"
+                 "g polygon d 0 0 12 3 -.1 0 3 .1 0 3.2 .1 0 3.2 -.1 0\n",
+                 7);
+    write_octree("outer.oct", "outer.rad",
+                 "void glow w 0 0 4 2 2 2 0\nw sphere e 0 0 4 0 -1 0 .1\nvoid instance x 1 inner.oct 0 0\n"
+                 "void plastic q 0 0 5 .5 .5 .5 0 0\nq instance y 5 inner.oct -t 0 1 0 0 0\n",
+                 5);
+    graze_scene *scene =
+        load(BASE "void glow own 0 0 4 3 3 3 0\nown sphere o 0 0 4 0 0 20 1\nown source s 0 0 4 0 0 1 1\n"
+                  "own instance k 5 inner.oct -t 0 10 0 0 0\nvoid instance l 6 outer.oct -mx -t 0 20 0 0 0\n");
+    const struct {
+        double x, y;
+        int light; /* where it is to be found; the first is the scene's own, the last the source */
+    } cases[] = {{0, 10, 1},  {1, 10, 2},   {2, 10, 3},    {3.1, 10, 4}, {0, 19, 5},
+                 {-1, 20, 6}, {-2, 20, 10}, {-3.1, 20, 7}, {-1, 21, -1}};
+    assert_int_equal(scene->light_count, 9);
+    assert_int_equal(scene->first_source, 8);
+    assert_false(scene->meets_glows);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        int64_t number = hit(scene, vec3_make(cases[i].x, cases[i].y, -5), vec3_make(0, 0, 1));
+        assert_true(number >= 2);
+        int light = scene_surface_at(scene, number).light;
+        if (cases[i].light >= 9 ? light < 9 : light != cases[i].light)
+            fail_msg("light %d at %g %g, not %d", light, cases[i].x, cases[i].y, cases[i].light);
+        if (light < 0 || light >= 9)
+            continue;
+        vec3 lower, upper;
+        shape_bounds(scene->lights[light].shape, &lower, &upper);
+        vec3 middle = vec3_scale(.5, vec3_add(lower, upper)), at = vec3_make(cases[i].x, cases[i].y, 0);
+        assert_true(scene->lights[light].surface == number);
+        assert_true(vec3_length(vec3_subtract(middle, at)) < 1e-9);
+    }
+    graze_scene_destroy(scene);
 }
 
 static void meshes_need_materials(void **state) {
@@ -218,6 +259,7 @@ int main(void) {
         cmocka_unit_test(modifiers_of_instances_replace_those_within),
         cmocka_unit_test(a_surface_across_its_orientation_is_warned_about_in_copies),
         cmocka_unit_test(lights_in_copies_are_only_seen),
+        cmocka_unit_test(glows_in_copies_are_lights_where_they_stand),
         cmocka_unit_test(meshes_need_materials),
         cmocka_unit_test(normals_of_meshes_turn_with_them),
         cmocka_unit_test(fingerprints_know_all_files),
