@@ -120,8 +120,8 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
         return rad_primitive_error(b->report, p, "a mixture of two materials that shine is not supported");
     material->shining = by_fore >= 0 ? by_fore : by_back;
     b->mixed_lights = b->mixed_lights || material->shining >= 0;
-    if (scene_material_bends(fore) || scene_material_bends(back))
-        return rad_primitive_error(b->report, p, "a mixture with a dielectric or a prism is not supported");
+    material->bends = scene_material_bends(fore) || scene_material_bends(back);
+    material->has_back = scene_material_has_back(fore) || scene_material_has_back(back);
     return GRAZE_OK;
 }
 
