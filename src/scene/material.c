@@ -171,7 +171,7 @@ static graze_status read_mist(scene_builder *b, scene_material *material, const 
     if (!scene->mist)
         return report_out_of_memory(b->report);
     if (scene->mist->count == MIST_MOST)
-        return rad_primitive_error(b->report, p, "it is more than the %d-th mist", MIST_MOST);
+        return rad_primitive_error(b->report, p, "a scene may have no more than %d materials of mist", MIST_MOST);
     graze_status status = scene_mist_read(&scene->mist->of[scene->mist->count], p, b->report);
     if (status == GRAZE_OK)
         material->mist = scene->mist->count++;

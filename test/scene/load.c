@@ -98,8 +98,8 @@ static void antimatters_and_mists_are_counted(void **state) {
         const char *type, *arguments, *place, *reason;
         int most;
     } cases[] = {
-        {"antimatter", "1 void 0 0", ":65:1: antimatter m64", "it is more than the 64-th antimatter", 64},
-        {"mist", "0 0 3 1 1 1", ":33:1: mist m32", "it is more than the 32-th mist", 32},
+        {"antimatter", "1 void 0 0", ":65:1: antimatter m64", "no more than 64 materials of antimatter", 64},
+        {"mist", "0 0 3 1 1 1", ":33:1: mist m32", "no more than 32 materials of mist", 32},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static char text[10000];
