@@ -4,6 +4,9 @@
 /* Values of a way. */
 enum { COEFFICIENT, DIRECTION, VALUES = 4 };
 
+/* Coefficients that add up to 1 may do so but for their last digits. */
+#define ROUNDING 1e-9
+
 /* What would let light grow beyond all numbers is none. */
 #define LARGEST_COEFFICIENT 1e10
 
@@ -15,8 +18,11 @@ graze_status material_prism_compile(const material_prism **result, material_libr
     cal_expression expressions[2 * VALUES];
     material_prism *made = arena_allocate(material_library_memory(library), sizeof *made);
     *result = made;
-    if (!made)
+    atomic_flag *told = arena_allocate(material_library_memory(library), sizeof *told);
+    if (!made || !told)
         return report_out_of_memory(material_library_report(library));
+    atomic_flag_clear(told);
+    made->amplification_told = told;
     made->ways = p->type == RAD_PRISM2 ? 2 : 1;
     uint32_t count = (uint32_t)(made->ways * VALUES);
     for (uint32_t i = 0; i < count; i++)
@@ -31,6 +37,15 @@ graze_status material_prism_compile(const material_prism **result, material_libr
         rad_primitive_warning(material_library_report(library), p,
                               "DxA, DyA and DzA are 0: no ray is aimed at a light through a prism");
     return status;
+}
+
+/* Functions are known to amplify only where rays meet them. */
+static void tell_amplification(const material_prism *m, const material_way ways[2]) {
+    const material_owner *o = &m->owner;
+    if (ways[0].coefficient + ways[1].coefficient > 1 + ROUNDING && !atomic_flag_test_and_set(m->amplification_told))
+        rad_primitive_warning(o->report, o->primitive,
+                              "unphysical: %s above 1, where it lets more light through than it gets",
+                              m->ways == 1 ? "its coefficient comes" : "its coefficients add up to something");
 }
 
 void material_prism_ways(const material_prism *m, const material_ray *ray, material_way ways[2]) {
@@ -49,4 +64,5 @@ void material_prism_ways(const material_prism *m, const material_ray *ray, mater
         ways[i].coefficient = double_min(way[COEFFICIENT], LARGEST_COEFFICIENT);
         ways[i].direction = vec3_safe_normalize(direction);
     }
+    tell_amplification(m, ways);
 }

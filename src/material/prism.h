@@ -8,6 +8,7 @@ typedef struct material_prism {
     material_owner owner;
     material_function function; /* a coefficient and a direction for each way */
     int ways;                   /* 1 or 2 */
+    atomic_flag *amplification_told;
 } material_prism;
 
 bool material_is_prism(rad_type);
@@ -21,7 +22,8 @@ typedef struct material_way {
     vec3 direction;     /* unit */
 } material_way;
 
-/* Where a ray goes on that ends on the surface; its normal is the surface's own. None after a compute error. */
+/* Where a ray goes on that ends on the surface; its normal is the surface's own. None after a compute error. Once it is
+ * told of a prism that it amplifies light. */
 void material_prism_ways(const material_prism *, const material_ray *, material_way ways[2]);
 
 #endif

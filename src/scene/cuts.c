@@ -90,7 +90,7 @@ graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report
             continue;
         if (count == MOST)
             return rad_primitive_error(report, &scene->primitives[scene->materials[i].primitive],
-                                       "it is more than the %d-th antimatter", MOST);
+                                       "a scene may have no more than %d materials of antimatter", MOST);
         materials[count++] = (int)i;
     }
     if (count == 0)

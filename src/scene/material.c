@@ -120,8 +120,8 @@ static graze_status read_mixture(scene_builder *b, scene_material *material, con
         return rad_primitive_error(b->report, p, "a mixture of two materials that shine is not supported");
     material->shining = by_fore >= 0 ? by_fore : by_back;
     b->mixed_lights = b->mixed_lights || material->shining >= 0;
-    if (scene_material_bends(fore) || scene_material_bends(back))
-        return rad_primitive_error(b->report, p, "a mixture with a dielectric or a prism is not supported");
+    material->bends = scene_material_bends(fore) || scene_material_bends(back);
+    material->has_back = scene_material_has_back(fore) || scene_material_has_back(back);
     return GRAZE_OK;
 }
 
@@ -171,7 +171,7 @@ static graze_status read_mist(scene_builder *b, scene_material *material, const 
     if (!scene->mist)
         return report_out_of_memory(b->report);
     if (scene->mist->count == MIST_MOST)
-        return rad_primitive_error(b->report, p, "it is more than the %d-th mist", MIST_MOST);
+        return rad_primitive_error(b->report, p, "a scene may have no more than %d materials of mist", MIST_MOST);
     graze_status status = scene_mist_read(&scene->mist->of[scene->mist->count], p, b->report);
     if (status == GRAZE_OK)
         material->mist = scene->mist->count++;

@@ -11,8 +11,8 @@
 #include "scene/light_pattern.h"
 #include "scene/mist.h"
 #include "scene/model_choice.h"
-#include "scene/sight_cells.h"
 #include "scene/shapes.h"
+#include "scene/sight_cells.h"
 
 const char *scene_name(const graze_scene *scene, int primitive) {
     return scene->primitives[primitive].id;

@@ -96,6 +96,8 @@ typedef struct scene_material {
             const material_modifier *share;
             int fore, back; /* indices into materials */
             int shining;    /* the emitter among these, and theirs, or -1 */
+            bool bends;     /* scene_material_bends, of either; and scene_material_has_back */
+            bool has_back;
         };
     };
 } scene_material;
@@ -190,14 +192,16 @@ static inline bool scene_material_refracts(const scene_material *m) {
     return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_DIELECTRIC;
 }
 
-/* Whether light comes through it, but not straight on: from either side, and where no light sample looks for it. */
+/* Whether light comes through some of it, but not straight on: from either side, and where no light sample looks for
+ * it. */
 static inline bool scene_material_bends(const scene_material *m) {
-    return m->kind == SCENE_PRISM || scene_material_refracts(m);
+    return m->kind == SCENE_PRISM || scene_material_refracts(m) || (m->kind == SCENE_MIXTURE && m->bends);
 }
 
-/* Whether it is there from behind, too, where back faces are not visible. */
+/* Whether some of it is there from behind, too, where back faces are not visible. */
 static inline bool scene_material_has_back(const scene_material *m) {
-    return scene_material_bends(m) || (m->kind == SCENE_FUNCTION && m->reflection->keeps_normal);
+    return scene_material_bends(m) || (m->kind == SCENE_FUNCTION && m->reflection->keeps_normal) ||
+           (m->kind == SCENE_MIXTURE && m->has_back);
 }
 
 /* The name of the surface with this index in the description, of its modifier, and of the material that this has or is,

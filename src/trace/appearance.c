@@ -83,6 +83,8 @@ static void prepare_reflector(const path *p, const path_hit *hit, const encounte
     if (reflector.kind >= GRAZE_DIELECTRIC && hit->behind)
         normal = vec3_negate(normal);
     graze_surface_prepare(&v->shading, &reflector, normal, vec3_negate(hit->direction), NULL);
+    if (reflector.kind == GRAZE_DIELECTRIC && (hit->behind || rgb_min(reflector.outside) < 1))
+        v->before = graze_material_attenuation(&reflector, hit->behind, 1);
     if (reflector.kind == GRAZE_GLASS && v->shading.transmits)
         v->shading.transmitted_specular = encounter_colored(v->shading.transmitted_specular, e->color);
     if (v->leans && v->shading.transmits)
@@ -183,8 +185,17 @@ static void prepare_with_nothing(const path *p, const path_hit *hit, const encou
     }
     if (share == 0)
         prepare_reflector(p, hit, of, &black, &e, v);
-    if (share < 1)
-        perforate(p, hit, share, v);
+    if (share == 1)
+        return;
+    perforate(p, hit, share, v);
+    /* Light samples do not pass opaque surfaces whose backs are hidden. */
+    v->refracts = !scene_surface_passes(p->context->scene, hit->surface);
+}
+
+/* Whether this part of a mixture is not there where the ray meets it: void, or a hidden back. */
+static bool is_absent(const path_context *context, const path_hit *hit, const scene_material *m) {
+    bool hidden = hit->behind && !context->settings->back_faces_visible && !scene_material_has_back(m);
+    return m->kind == SCENE_NOTHING || hidden;
 }
 
 static void prepare_mixture(const path *p, const path_hit *hit, const encounter *of, const scene_material *m,
@@ -195,8 +206,8 @@ static void prepare_mixture(const path *p, const path_hit *hit, const encounter 
         prepare_reflector(p, hit, of, &black, &e, v);
         return;
     }
-    if (materials[m->fore].kind == SCENE_NOTHING || materials[m->back].kind == SCENE_NOTHING) {
-        bool first = materials[m->back].kind == SCENE_NOTHING;
+    bool first = is_absent(p->context, hit, &materials[m->back]);
+    if (first || is_absent(p->context, hit, &materials[m->fore])) {
         prepare_with_nothing(p, hit, of, &materials[first ? m->fore : m->back], e, first ? share : 1 - share, v);
         return;
     }
@@ -248,17 +259,24 @@ void appearance_prepare(const path *p, const path_hit *hit, const scene_material
     prepare(p, hit, &of, m, of.effect, v);
 }
 
+/* What perturbs the normal; in a mixture, each part by its share. */
+static material_effect find_perturbation(const scene_material *materials, const scene_material *m,
+                                         const material_ray *ray, material_effect before) {
+    double share;
+    material_effect e = encounter_add_effect(m->modifiers, ray, before);
+    if (m->kind != SCENE_MIXTURE || !material_mixture_share(m->share, ray, &share))
+        return e;
+    material_effect fore = find_perturbation(materials, &materials[m->fore], ray, e);
+    material_effect back = find_perturbation(materials, &materials[m->back], ray, e);
+    e.perturbation = vec3_add_scaled(vec3_scale(share, fore.perturbation), 1 - share, back.perturbation);
+    return e;
+}
+
 vec3 appearance_normal(const graze_scene *scene, const path_hit *hit, double length) {
     const scene_material *m = scene_material_at(scene, hit->surface);
     const encounter of = encounter_meet(scene, hit, length);
-    material_effect e = of.effect;
-    for (;;) {
-        e = encounter_add_effect(m->modifiers, &of.ray, e);
-        double share;
-        if (m->kind != SCENE_MIXTURE || !material_mixture_share(m->share, &of.ray, &share))
-            return encounter_lean(hit, &of, &e);
-        m = &scene->materials[share >= 0.5 ? m->fore : m->back];
-    }
+    const material_effect e = find_perturbation(scene->materials, m, &of.ray, of.effect);
+    return encounter_lean(hit, &of, &e);
 }
 
 vec3 appearance_smooth_normal(const graze_scene *scene, const path_hit *hit) {
@@ -280,9 +298,12 @@ static rgb through_reflector(const scene_material *m, const path_hit *hit, const
     return reflector.kind == GRAZE_GLASS ? encounter_colored(through, e->color) : through;
 }
 
-static rgb straight_through(const scene_material *materials, const scene_material *m, const path_hit *hit,
+static rgb straight_through(const path_context *context, const scene_material *m, const path_hit *hit,
                             const encounter *of, material_effect before) {
+    const scene_material *materials = context->scene->materials;
     double share;
+    if (is_absent(context, hit, m))
+        return rgb_gray(1);
     const material_effect e = encounter_add_effect(m->modifiers, &of->ray, before);
     switch (m->kind) {
     case SCENE_REFLECTOR:
@@ -291,24 +312,24 @@ static rgb straight_through(const scene_material *materials, const scene_materia
     case SCENE_MIXTURE:
         if (!material_mixture_share(m->share, &of->ray, &share))
             break;
-        return blend(share, straight_through(materials, &materials[m->fore], hit, of, e),
-                     straight_through(materials, &materials[m->back], hit, of, e));
-    case SCENE_NOTHING:
-        return rgb_gray(1);
+        return blend(share, straight_through(context, &materials[m->fore], hit, of, e),
+                     straight_through(context, &materials[m->back], hit, of, e));
     case SCENE_FUNCTION:
         return appearance_through_function(hit, of, m->reflection, &e);
     case SCENE_WGMD:
         return appearance_through_wgmd(hit, of, m, before, &e);
     case SCENE_EMITTER:
     case SCENE_PRISM:
+    case SCENE_NOTHING:
         break;
     }
     return rgb_gray(0);
 }
 
-rgb appearance_straight_through(const graze_scene *scene, const scene_material *m, const path_hit *hit, double length) {
-    const encounter of = encounter_meet(scene, hit, length);
-    return straight_through(scene->materials, m, hit, &of, of.effect);
+rgb appearance_straight_through(const path_context *context, const scene_material *m, const path_hit *hit,
+                                double length) {
+    const encounter of = encounter_meet(context->scene, hit, length);
+    return straight_through(context, m, hit, &of, of.effect);
 }
 
 /* The colour of what shines, and how much of the surface does. */

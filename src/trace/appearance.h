@@ -19,8 +19,8 @@ static inline bool appearance_has_normal(const graze_scene *scene, const scene_m
  * Where two materials are mixed that cannot be prepared as one, one of them is drawn. */
 void appearance_prepare(const path *, const path_hit *, const scene_material *, vertex *v);
 
-/* The normal that reflection goes by at a hit, on the viewer's side; of a mixture that of the larger share. `length` is
- * that of the path before the ray. */
+/* The normal that reflection goes by at a hit, on the viewer's side; of a mixture, with the mean of its perturbations.
+ * `length` is that of the path before the ray. */
 vec3 appearance_normal(const graze_scene *, const path_hit *, double length);
 
 /* The same without textures: the surface's own, or in a mesh what its corners say. */
@@ -33,6 +33,6 @@ graze_material appearance_reflector(const graze_scene *, const scene_material *,
 rgb appearance_emission(const graze_scene *, const path_hit *, double length, rgb radiance);
 
 /* What a surface with modifiers lets straight through of the ray that meets it, `length` from the eye to its origin. */
-rgb appearance_straight_through(const graze_scene *, const scene_material *, const path_hit *, double length);
+rgb appearance_straight_through(const path_context *, const scene_material *, const path_hit *, double length);
 
 #endif

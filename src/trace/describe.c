@@ -18,8 +18,9 @@ graze_hit describe_hit(const graze_scene *scene, const path_hit *found, graze_qu
         const scene_material *material = scene_material_seen(scene, &scene->materials[surface.material]);
         primitive = surface.primitive;
         hit.normal = found->normal;
-        /* As Radiance has it: what shines, and clear bodies, have one normal on both sides. */
-        bool turned = found->behind && !scene_material_emits(material) && !scene_material_refracts(material);
+        /* As Radiance has it: what shines, clear bodies and mixtures have one normal on both sides. */
+        bool turned = found->behind && !scene_material_emits(material) && !scene_material_refracts(material) &&
+                      material->kind != SCENE_MIXTURE;
         hit.shading_normal = turned ? vec3_negate(found->normal) : found->normal;
         scene_mesh_point mesh = scene_mesh_point_at(scene, found->surface, found->point);
         hit.uv[0] = mesh.uv[0];

@@ -84,12 +84,15 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
     light_choice_prepare(&beyond->lights, p->context->scene, &receiver);
 }
 
-/* What panes and mist leave of a light sample's light; black where something else is on its way. */
+/* What panes, mist and the body that it is in leave of a light sample's light; black where something else is on its
+ * way. */
 __attribute__((noinline)) static rgb light_let_through(const path *p, const geometry_ray *ray,
                                                        const light_sample *sample) {
     const graze_scene *scene = p->context->scene;
     const scene_light *light = &scene->lights[sample->light];
     rgb left = panes_transmittance(p->context, ray, p->length, light->surface, light_is_proper(scene, sample->light));
+    if (path_is_in_body(p))
+        left = rgb_multiply(left, path_medium_transmittance(p, ray->far));
     if (!p->in_mist || rgb_is_black(left))
         return left;
     bool direct = light_role_at(light, sample->distance) == LIGHT_DIRECT;

@@ -25,6 +25,7 @@ typedef struct vertex {
     bool no_ambient;    /* diffuse light from surfaces is not followed here (-ae, -ai) */
     bool behind;        /* the viewer is behind the surface */
     double distance;    /* that the path came from */
+    rgb before;         /* transmittance of a unit of length on the viewer's side; set where the scene refracts */
     /* Where the surface transmits, of its other side: */
     rgb transmitted_ambient;
     rgb transmitted_function; /* to multiply the function's values by */

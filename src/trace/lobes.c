@@ -218,6 +218,12 @@ static void go_below(path *p, const vertex *v) {
         p->medium = v->beyond;
 }
 
+/* Of a mixture it is only known now whether the viewer is in a clear body. */
+static inline void stay_above(path *p, const vertex *v) {
+    if (p->context->scene->has_refraction)
+        p->medium = v->before;
+}
+
 /* Lets the path go on in a lobe's one direction as if it had not been stopped. */
 static bool carry_on(path *p, const vertex *v, graze_lobe lobe, double chance, vec3 *direction) {
     graze_surface_sample sample = graze_surface_sample_lobe(&v->shading, lobe, 0, 0, 0);
@@ -319,6 +325,7 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
 bool lobes_reflect(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice, vec3 *direction) {
     double random[4] = {0, 0, 0, 0};
     draw_numbers(p, v->shading.specular_lobe, *choice, random);
+    stay_above(p, v);
     return go_on(p, v, lights, choice, false, random, direction);
 }
 
@@ -332,8 +339,10 @@ bool lobes_go_on(path *p, const gathering *here, const other_side *beyond, vec3 
     bool only_through = v->shading.transmitted_lobe == GRAZE_LOBE_TRANSMITTED && below->specular >= 1;
     if (!only_through)
         sampler_4d(p->sampler, random);
-    if (random[3] < reflected)
+    if (random[3] < reflected) {
+        stay_above(p, v);
         return go_on(p, v, &here->lights, above, false, random, direction);
+    }
     random[3] -= reflected;
     return go_on(p, v, &beyond->lights, below, true, random, direction);
 }
@@ -343,6 +352,8 @@ static void put_by(path *p, const vertex *v, bool below, path_branches *branches
     static const lobe_choice alone = {.specular = 1};
     static const double random[4] = {0, 0, 0, 0};
     path there = *p;
+    if (!below)
+        stay_above(&there, v);
     path_branch *b = &branches->waiting[branches->count];
     if (!go_on(&there, v, NULL, &alone, below, random, &b->direction))
         return;

@@ -94,6 +94,8 @@ static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror
     rgb before = panes_transmittance(p->context, &first, p->length, mirror, true);
     if (!(left > 0) || rgb_is_black(before))
         return rgb_gray(0);
+    if (path_is_in_body(p))
+        before = rgb_multiply(before, path_medium_transmittance(p, to_mirror + left));
     if (p->in_mist) {
         bool direct = light_role_at(&scene->lights[sample->light], sample->distance) == LIGHT_DIRECT;
         before = rgb_multiply(before, mist_transmittance(p->context, v->point, sample->direction, to_mirror, direct));

@@ -29,7 +29,7 @@ static rgb pane_transmittance(const path_context *context, const geometry_hit *h
                          .normal = normal,
                          .direction = direction,
                          .behind = slope > 0};
-    return appearance_straight_through(scene, material, &at, length);
+    return appearance_straight_through(context, material, &at, length);
 }
 
 rgb panes_transmittance(const path_context *context, const geometry_ray *ray, double length, int64_t target,

@@ -44,7 +44,7 @@ static bool reflects_plainly(const vertex *v) {
 static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     const path_context *context = p->context;
     if (p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 || context->settings->ambient_bounces < 2 ||
-        !reflects_plainly(v))
+        !reflects_plainly(v) || path_is_in_body(p))
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[IRRADIANCE_PARTS];
@@ -105,7 +105,7 @@ static void attenuate(path *p, const path_hit *hit) {
         p->medium = medium_at(p, hit, material);
     if (rgb_min(p->medium) == 1)
         return;
-    rgb left = {pow(p->medium.r, hit->distance), pow(p->medium.g, hit->distance), pow(p->medium.b, hit->distance)};
+    rgb left = path_medium_transmittance(p, hit->distance);
     p->throughput = rgb_multiply(p->throughput, left);
     if (p->last.lobe == GRAZE_LOBE_NONE)
         return;
@@ -119,6 +119,11 @@ static void begin_in_medium(path *p, const path_hit *first) {
     p->medium = rgb_gray(1);
     if (p->context->settings->quantity != GRAZE_IRRADIANCE_HIT)
         attenuate(p, first);
+}
+
+/* Whether light comes weakened to where the path is, however clear its way. */
+static inline bool is_veiled(const path *p) {
+    return p->in_mist || path_is_in_body(p);
 }
 
 /* Decides for both sides of a surface that transmits. */
@@ -206,7 +211,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
         p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
         p->gloss = rare_gloss_at(p, v);
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
-            if (!context->observer && !p->in_mist)
+            if (!context->observer && !is_veiled(p))
                 known_light_add(p, v, &here->lights);
             direct_light_add(p, v, &here->lights, &here->lobes);
         }
@@ -218,7 +223,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
             lobes_split(p, v, &here->lobes, transmits ? &beyond->lobes : NULL, branches);
         const bool ends = !transmits && !lobes_may_reflect(&here->lobes);
         /* Where it was not all for an earlier path, it is not for this one. */
-        if (!ends && !context->observer && !p->in_mist && !decided && known_light_is_all(p, v, &here->lights))
+        if (!ends && !context->observer && !is_veiled(p) && !decided && known_light_is_all(p, v, &here->lights))
             return;
         here->decided = !v->drawn;
         if (ends)

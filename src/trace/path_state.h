@@ -103,6 +103,15 @@ static inline bool lobe_scatters(graze_lobe lobe) {
     return lobe != GRAZE_LOBE_NONE && lobe != GRAZE_LOBE_MIRROR && lobe != GRAZE_LOBE_TRANSMITTED;
 }
 
+/* Whether the path is in a body that absorbs light; and what that leaves of it on a way. */
+static inline bool path_is_in_body(const path *p) {
+    return p->context->scene->has_refraction && rgb_min(p->medium) < 1;
+}
+
+static inline rgb path_medium_transmittance(const path *p, double distance) {
+    return (rgb){pow(p->medium.r, distance), pow(p->medium.g, distance), pow(p->medium.b, distance)};
+}
+
 /* Whether another diffuse reflection may follow. */
 static inline bool path_bounces_left(const path *p) {
     return p->ambient_depth < p->ambient_limit;

@@ -133,6 +133,8 @@ bool vertex_at_hit(const path *p, const path_hit *hit, vertex *v) {
     v->function = NULL;
     v->behind = hit->behind;
     v->distance = hit->distance;
+    if (scene->has_refraction)
+        v->before = p->medium;
     bool irradiance = p->context->settings->quantity == GRAZE_IRRADIANCE_HIT && path_is_at_first(p);
     if (irradiance) {
         prepare_probe(p, hit, v);
@@ -165,7 +167,8 @@ bool vertex_keep_part(vertex *v, graze_part part) {
 }
 
 vertex vertex_of_point(vec3 point, vec3 normal, int64_t surface) {
-    vertex v = {.point = point, .normal = normal, .surface = surface, .shading = probe(normal, normal)};
+    vertex v = {
+        .point = point, .normal = normal, .surface = surface, .before = {1, 1, 1}, .shading = probe(normal, normal)};
     v.ambient = v.shading.diffuse;
     return v;
 }

@@ -160,6 +160,17 @@ check "light that grows without bound stays finite" sh -c "echo '0 0 .5 .001 0 1
 check "-w- silences the scene's warnings" sh -c "'$gtrace' -w- -h growing.rad </dev/null 2>&1 | wc -c | grep -qx 0"
 check "... which are there" sh -c "'$gtrace' -h growing.rad </dev/null 2>&1 | grep -q 'growing.rad:1:1: plastic p'"
 
+# What floats and colors cannot hold.
+printf 'void light l 0 0 3 1e90 1 1e100 l sphere lamp 0 0 4 0 0 3 1 void plastic p 0 0 5 1e9 1 1 0 0 p ring r 0 0 8 0 0 0 0 0 1 0 1\n' >huge.rad
+for direction in 1 -1; do
+    printf "0 0 1 0 0 $direction\n" >ray
+    check "radiance beyond floats, towards $direction" sh -c \
+        "'$gtrace' -w- -h -faf -ov huge.rad <ray | od -An -tf4 | grep -qE '^ *3.4028235e\+38 +[0-9.e-]+ +3.4028235e\+38'"
+    check "... and colors" sh -c "'$gtrace' -w- -h -fac -ov huge.rad <ray | od -An -tu1 | grep -q '255 *[0-9]* *255 *255'"
+    check "... and doubles" sh -c "'$gtrace' -w- -h -faa -ovex huge.rad <ray | grep -E 'e.1?[0-9][0-9]' | grep -vE 'inf|nan'"
+done
+check "pictures hold no infinity" sh -c "'$BIN/gpict' -w- -vp 0 0 1 -vd 0 0 1 -vu 0 1 0 -x 4 -y 4 -o huge.exr -o huge.hdr huge.rad && oiiotool --stats huge.exr | grep -q 'Stats InfCount: 0 0 0'"
+
 # Bad output.
 if [ -w /dev/full ]; then
     "$gtrace" -h room.rad <rays >/dev/full 2>err

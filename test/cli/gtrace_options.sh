@@ -48,6 +48,8 @@ fails "-P without its file" 1 "'-P'" "" "$gtrace" -P
 fails "-PQ" 1 "'-PQ'" "" "$gtrace" -PQ control room.rad
 fails "-f without its file" 1 "'-f'" "" "$gtrace" -f
 fails "-e without its word" 1 "'-e'" "" "$gtrace" -e
+fails "-e with an empty one" 1 "option '-e' has an empty argument" "" "$gtrace" -e '' room.rad
+fails "-f with an empty one" 1 "option '-f' has an empty argument" "" "$gtrace" -f '' room.rad
 
 # What real clients say.
 down="0 0 1 0 0 -1\n"

@@ -43,7 +43,6 @@ static void ways_are_functions(void **state) {
     material_prism_ways(s.prism, &ray, ways);
     assert_way(ways[0], 0.3, 0, 0.6, -0.8);
     assert_way(ways[1], 2.5, 0.6, 0, -0.8);
-    assert_string_equal(messages, "");
     setting_end(&s);
     s = compiled("void prism1 m 7 -Dy+.5 0 0 2 . -rx 90 0 0");
     material_prism_ways(s.prism, &ray, ways);
@@ -97,10 +96,36 @@ static void what_is_without_effect_is_told(void **state) {
     setting_end(&s);
 }
 
+/* Told where a ray meets it, and once. */
+static void amplification_is_told(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *told;
+    } cases[] = {
+        {"void prism1 m 5 Px/3 Dx Dy Dz . 0 0", ""},
+        {"void prism1 m 5 .4*Px Dx Dy Dz . 0 0", "prism1 m: unphysical: its coefficient comes above 1"},
+        {"void prism2 m 9 .7 Dx Dy Dz .1*Px Dx Dy Dz . 0 0", ""},
+        {"void prism2 m 9 .8 Dx Dy Dz .1*Px Dx Dy Dz . 0 0", "prism2 m: unphysical: its coefficients add up"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        material_way ways[2];
+        setting s = compiled(cases[i].text);
+        assert_string_equal(messages, "");
+        material_prism_ways(s.prism, &ray, ways);
+        if (*cases[i].told ? !strstr(messages, cases[i].told) : *messages)
+            fail_msg("%s: \"%s\"", cases[i].text, messages);
+        *messages = '\0';
+        material_prism_ways(s.prism, &ray, ways);
+        assert_string_equal(messages, "");
+        setting_end(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ways_are_functions),
         cmocka_unit_test(ways_that_lead_nowhere),
+        cmocka_unit_test(amplification_is_told),
         cmocka_unit_test(what_is_without_effect_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,6 +129,9 @@ def cases():
     yield Case("glass ball, drop and bead", "clear", aim([.2, -4, 1.5], grid([-1.8, 0, -.9], [1.9, 0, .9], 144, clear)), "-ab 0",
                repeat=4, samples=32768)
 
+    yield Case("lights in water", "immersed", aim([.1, -4, 1], grid([-.9, 0, -.4], [1, 0, .4], 144, np.random.default_rng(20100406))), "-ab 0 -st 1",
+               "-dr 1 -dp 0", repeat=64, samples=16384)
+
     # Lights that are seen as other things, and what is not where it seems.
     odd = np.random.default_rng(20100405)
     yield Case("illums, irradiance", "illum", sensors([-2.5, -2.5, 0], [2.5, 2.5, 0], 144, up, odd), "-I -ab 0", repeat=256)

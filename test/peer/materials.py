@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
-from peer import FLOOR, Case, aim, grid, main, sensors
+from peer import FLOOR, Case, Geometry, aim, grid, main, normalized, sensors
 
 LAMPS = """
 void light lit 0 0 3 9000 8500 8000
@@ -101,6 +101,26 @@ MIXTURES = {
     "mixdata": "mixdata M 7 F B noop modifiers.dat modifiers.cal 1.6*Px Py 0 0",
     "mixpict": "mixpict M 9 F B grey modifiers.hdr modifiers.cal .3+.2*Px .4+.2*Py -rz 10 0 0",
 }
+# Of these one bends what is seen through it. Bodies of them lie in a room of glows.
+BENDING = [
+    ("dielectric F 0 0 5 .6 .8 .9 1.5 0", "plastic B 0 0 5 .5 .4 .3 0 0"),
+    ("dielectric F 0 0 5 .6 .8 .9 1.5 0", "void"),
+    ("metal F 0 0 5 .2 .4 .8 .7 0", "dielectric B 0 0 5 .9 .8 .7 1.33 0"),
+    ("dielectric F 0 0 5 .6 .8 .9 1.5 0", "dielectric B 0 0 5 .9 .3 .7 1.2 0"),
+    ("interface F 0 0 8 .9 .5 .7 1.5 1 1 1 1.33", "glass B 0 0 3 .85 .7 .5"),
+    ("prism1 F 5 .6-.2*Rdot Dx+.3*sin(9*Py) Dy Dz-.2 . 0 0", "trans B 0 0 7 .8 .7 .6 .04 0 .7 .6"),
+    ("void", "prism2 B 9 if(Rdot,.3,.5) Dx Dy -Dz .4*abs(Dz) Dx+.3 Dy Dz . 0 0"),
+    ("prism1 F 5 .7 Dx Dy-.2 Dz . 0 0", "dielectric B 0 0 5 .9 .8 .7 1.33 0"),
+]
+ROOM = """
+void glow red 0 0 4 3 .2 .1 0
+void glow green 0 0 4 .2 2 .3 0
+void colorfunc tiles 4 .6+.4*sin(5*Px)*sin(4*Py) .3+.2*sin(6*Px) .3 . 0 0
+tiles glow bright 0 0 4 3 2 1 0
+bright polygon floor 0 0 12 -6 -6 -1 6 -6 -1 6 6 -1 -6 6 -1
+red polygon wall 0 0 12 -6 6 -1 6 6 -1 6 6 5 -6 6 5
+green polygon other 0 0 12 -6 -6 -1 -6 6 -1 -6 6 5 -6 -6 5
+"""
 LAMP = "void light lit 0 0 3 9000 8500 8000\nlit sphere lamp 0 0 4 .5 -.3 4 .01\n"
 # What a pane over the floor is made of, and how the lamp above shines through it.
 PANE = "M polygon pane 0 0 12 -3 -3 1.2 3 -3 1.2 3 3 1.2 -3 3 1.2\n"
@@ -123,6 +143,19 @@ def mixtures(text):
         parts += f"void {fore.replace(' F ', f' f{i} ')}\nvoid {back.replace(' B ', f' b{i} ')}\n"
         names.append(text.replace(" F B ", f" f{i} b{i} "))
     return parts + board(names, "void")
+
+
+def bodies(text):
+    """Balls, some of which lie in others' places, of the mixtures."""
+    made = ""
+    for i, (fore, back) in enumerate(BENDING):
+        names = []
+        for part, name, letter in (fore, f"f{i}", " F "), (back, f"b{i}", " B "):
+            names.append("void" if part == "void" else name)
+            made += "" if part == "void" else f"void {part.replace(letter, f' {name} ')}\n"
+        made += f"void {text.replace(' F B ', f' {names[0]} {names[1]} ').replace(' M ', f' m{i} ')}\n"
+        made += f"m{i} sphere ball{i} 0 0 4 {1.2 * (i % 4) - 1.8} {1.2 * (i // 4)} 0 .55\n"
+    return made
 
 
 def cases():
@@ -149,6 +182,18 @@ void mixfunc two 4 shiny marked share*.9 modifiers.cal 0 0
 void mixfunc both 4 one two .4+.2*sin(Py) . 0 0
 both ring disk 0 0 8 0 0 0 0 0 1 0 2.5
 """, aim([0.3, -1, 5], grid([-1.5, -1.5, 0], [1.5, 1.5, 0], 64, random)), "-ab 0 -st 1", repeat=128, own_repeat=2048)
+    # From behind, Radiance adds what leans a normal to the other one.
+    leaning = f"void plastic F 0 0 5 .7 .2 .1 0 0\n{TEXTURES['texfunc']}\nP metal B 0 0 5 .2 .4 .8 .7 0\nvoid {MIXTURES['mixfunc']}\n"
+    sides = aim(np.array([0, 0, 3]), random.uniform([-0.8, -0.8, 0], [0.8, 0.8, 0], (20, 3)))
+    yield Geometry("a mixture with a texture", leaning + "M ring disk 0 0 8 0 0 0 0 0 1 0 2\n", sides, "LpNnsmM")
+    yield Geometry("a mixture", mixtures(MIXTURES["mixdata"]), looks(len(PAIRS), random), "LpNnsmM")
+    for kind, text in MIXTURES.items():
+        around = aim([0.2, -4, 2.5], random.uniform([-2.3, -0.5, -0.4], [2.3, 1.7, 0.4], (96, 3)))
+        yield Case(f"{kind} with what bends", ROOM + bodies(text), around, "-ab 0 -st 1", "-lr -48", repeat=4, own_repeat=2048,
+                   samples=32768)
+        if kind == "mixfunc":
+            yield Case(f"{kind} with what bends, backs unseen", ROOM + bodies(text), around, "-ab 0 -st 1 -bv-", "-lr -48", repeat=4, own_repeat=2048,
+                       samples=32768)
     under = sensors([-2.2, -2.2, 0], [2.2, 2.2, 0], 36, [0, 0, 1], random)
     for kind, text in PANES.items():
         yield Case(f"lit through {kind}", FLOOR + LAMP + text + PANE, under, "-I -ab 0", repeat=32)

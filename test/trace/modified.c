@@ -55,6 +55,9 @@ static const char *const materials[] = {
     "void trans a 0 0 7 .9 .8 .7 .05 .3 .6 .7 void mixfunc m 4 void a .4 . 0 0",
     ("void transfunc a 2 max . 0 6 .7 .6 .5 .2 .6 .7 void mixfunc b 4 a void .4 . 0 0 void glass c 0 0 3 .9 .8 .7 "
      "void mixfunc m 4 b c .3 . 0 0"),
+    "void dielectric a 0 0 5 .9 .8 .7 1.3 0 void plastic b 0 0 5 .8 .2 .2 .1 .1 void mixfunc m 4 a b .4 . 0 0",
+    "void interface a 0 0 8 .9 .8 .7 1.3 .9 .9 .9 1.1 void mixfunc m 4 a void .4 . 0 0",
+    "void prism2 a 9 .3 Dx Dy -Dz .5 Dx+.3 Dy Dz . 0 0 void metal b 0 0 5 .2 .3 .7 .8 .3 void mixfunc m 4 a b .4 . 0 0",
 };
 
 static void strategies_agree(void **state) {
@@ -82,6 +85,8 @@ static void mixtures_are_means(void **state) {
         {"plastic", "metal", "0 0 5 .8 .2 .2 .1 .1", "0 0 5 .1 .5 .2 .7 .3"},
         {"plastic", "metal", "0 0 5 .8 .2 .2 .1 0", "0 0 5 .1 .5 .2 .7 .3"},
         {"plastic", "glass", "0 0 5 .8 .2 .2 .1 .1", "0 0 3 .9 .8 .7"},
+        {"dielectric", "plastic", "0 0 5 .9 .8 .7 1.3 0", "0 0 5 .8 .2 .2 .1 .1"},
+        {"prism1", "dielectric", "5 .8 Dx+.2 Dy Dz . 0 0", "0 0 5 .9 .8 .7 1.3 0"},
         {"transfunc", "plastic", "2 max . 0 6 .7 .6 .5 .2 .6 .7", "0 0 5 .8 .2 .2 0 0"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
@@ -111,6 +116,8 @@ static void void_is_clear(void **state) {
         "glass a 0 0 3 .9 .8 .7",
         "trans a 0 0 7 .9 .8 .7 .05 .3 .6 .7",
         "transfunc a 2 max . 0 6 .7 .6 .5 .2 .6 .7",
+        "dielectric a 0 0 5 .9 .8 .7 1.3 0",
+        "prism1 a 5 .8 Dx+.2 Dy -Dz . 0 0",
         "BRTDfunc a 10 .1 .2 .3 .5 .4 .3 max max max . 0 9 .1 .1 .1 0 0 0 .1 .1 .1",
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)

@@ -32,17 +32,20 @@ static graze_status add_expression(definition_list *list, const char *text, cons
     return add(list, (graze_definitions){.text = text, .file = name}, report);
 }
 
-static graze_status expect_word(char letter, const char *suffix, int count, const char *what,
+static graze_status expect_word(char letter, const char *suffix, int count, const char *const *words, const char *what,
                                 const graze_report *report) {
     if (*suffix)
         return report_error(report, NULL, "unknown option '-%c%s'", letter, suffix);
-    return count < 1 ? report_error(report, NULL, "option '-%c' lacks an argument: %s", letter, what) : GRAZE_OK;
+    if (count < 1)
+        return report_error(report, NULL, "option '-%c' lacks an argument: %s", letter, what);
+    return words[0][0] ? GRAZE_OK
+                       : report_error(report, NULL, "option '-%c' has an empty argument instead of %s", letter, what);
 }
 
 graze_status definition_list_take_expression(void *target, const char *suffix, int count, const char *const *words,
                                              int *used, const graze_report *report) {
     definition_list *list = target;
-    graze_status status = expect_word('e', suffix, count, "a definition or the name of a file", report);
+    graze_status status = expect_word('e', suffix, count, words, "a definition or the name of a file", report);
     *used = 1;
     if (status != GRAZE_OK)
         return status;
@@ -54,7 +57,7 @@ graze_status definition_list_take_expression(void *target, const char *suffix, i
 
 graze_status definition_list_take_file(void *target, const char *suffix, int count, const char *const *words, int *used,
                                        const graze_report *report) {
-    graze_status status = expect_word('f', suffix, count, "the name of a file", report);
+    graze_status status = expect_word('f', suffix, count, words, "the name of a file", report);
     *used = 1;
     return status == GRAZE_OK ? add(target, (graze_definitions){.file = words[0]}, report) : status;
 }
