@@ -2,6 +2,7 @@
 #include "trace/estimate_error.h"
 
 #include "trace/path.h"
+#include "trace/unmet_light.h"
 
 /* Where so much of what was expected of gloss has been found, its peaks have been met, and scatter tells the error. */
 #define FOUND_ENOUGH 0.25
@@ -141,6 +142,10 @@ void estimate_summarize(const estimate_half halves[ESTIMATE_HALVES], const estim
     estimate_add_rare(&rare, &halves[1].rare);
     double taken = (double)halves[0].taken + halves[1].taken,
            unseen = hypot(shadows, estimate_unseen_gloss(&rare, taken, taken));
+    if (halves[0].unmet && halves[0].unmet->count > 0) {
+        double unmet = unmet_light_of(halves[0].unmet, taken);
+        unseen = hypot(unseen, brightness > 0 ? fmin(unmet, brightness) : unmet);
+    }
     if (unseen > 0) {
         rgb part = brightness > 0 ? rgb_scale(unseen / brightness, answer->value) : rgb_gray(unseen);
         variance = rgb_add(variance, rgb_multiply(part, part));

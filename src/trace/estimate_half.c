@@ -54,6 +54,7 @@ estimate_luck estimate_half_take(estimate_half *h, estimate_sample *sample, void
     add_controls(h, block, &taken);
     h->integrated = h->integrated || taken.integrated;
     estimate_add_rare(&h->rare, &taken.rare);
+    h->unmet = taken.unmet;
     if (taken.cached)
         add_told(h, &taken);
     h->known_error = rgb_add(h->known_error, taken.known_error);
@@ -76,6 +77,7 @@ void estimate_half_begin(estimate_half *h, uint64_t key, bool with_parts) {
     h->taken = 0;
     h->level = h->control_count = 0;
     h->rare = (path_rare){.times = 0};
+    h->unmet = NULL;
     h->integrated = false;
     h->luck = ESTIMATE_EXACT;
     h->with_parts = with_parts;

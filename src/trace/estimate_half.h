@@ -17,8 +17,9 @@ typedef struct estimate_half {
     int level;          /* a block has 2^level samples */
     estimate_luck luck; /* the worst of any sample */
     int control_count;
-    path_rare rare;  /* sums */
-    bool integrated; /* whether light was integrated in any sample */
+    path_rare rare;          /* sums */
+    const path_unmet *unmet; /* as in path_sample */
+    bool integrated;         /* whether light was integrated in any sample */
     bool with_parts;
     bool cached;
     estimate_parts parts;                            /* sums */

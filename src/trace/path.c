@@ -19,6 +19,7 @@
 #include "trace/observer.h"
 #include "trace/panes.h"
 #include "trace/rare_gloss.h"
+#include "trace/unmet_light.h"
 #include "trace/vertex.h"
 
 /* The ambient value stands for the diffuse light that is not followed. */
@@ -213,6 +214,8 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
             if (!context->observer && !is_veiled(p))
                 known_light_add(p, v, &here->lights);
+            if (!p->scattered && !path_is_at_first(p) && !p->unmet && !context->observer)
+                unmet_light_expect(p, here);
             direct_light_add(p, v, &here->lights, &here->lobes);
         }
         if (transmits)
@@ -241,6 +244,8 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
 
 /* What has been found since the path scattered, but for what came straight from lights then, is indirect. */
 static void end_branch(path *p) {
+    if (p->unmet)
+        unmet_light_settle(p);
     if (p->scattered)
         p->indirect_light = rgb_add(rgb_add_scaled(p->radiance, -1, p->direct), p->indirect_light);
 }
@@ -302,6 +307,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->known = (known_lights){.shared = false};
     p->integrated = p->cached = p->gathering = p->indirect_known = false;
     p->control_count = 0;
+    p->unmet = NULL;
     p->rare = (path_rare){.times = 0};
 }
 
@@ -313,6 +319,7 @@ static void path_end(const path *p, path_sample *sample) {
         sample->told[i] = p->told[i];
     sample->control_count = p->control_count;
     sample->rare = p->rare;
+    sample->unmet = p->context->memory ? &p->context->memory->unmet : NULL;
     sample->noisy = p->noisy || p->sampler->group != p->first_group;
     sample->searching = p->searching;
     sample->integrated = p->integrated;

@@ -41,7 +41,8 @@ typedef struct path_sample {
     path_control controls[PATH_CONTROLS];
     int control_count; /* so many are set */
     path_rare rare;
-    bool cached; /* some of it is what the irradiance cache says, the mean of its parts: */
+    const path_unmet *unmet; /* of all samples of the estimate; null: nothing is known */
+    bool cached;             /* some of it is what the irradiance cache says, the mean of its parts: */
     rgb told[IRRADIANCE_PARTS];
     rgb known_error; /* the standard error of what of it was known beforehand */
     bool noisy;      /* random numbers were drawn: another sample may differ */

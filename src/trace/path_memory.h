@@ -19,11 +19,27 @@ typedef struct path_memory_light {
     int times_mixed; /* how often it was in vain to ask whether the light is seen */
 } path_memory_light;
 
+/* Light that is looked for after so many mirrors and passages (trace/unmet_light.h), and what would be found of it if
+ * nothing stood in its way. */
+typedef struct path_unmet_at {
+    int depth, passages;
+    bool met; /* some of it was found */
+    double expected;
+} path_unmet_at;
+
+enum { PATH_UNMET = 8 };
+
+typedef struct path_unmet {
+    int count;
+    path_unmet_at at[PATH_UNMET];
+} path_unmet;
+
 /* Belongs to the estimate, whose paths come one after another. */
 typedef struct path_memory {
     bool alike;      /* all paths have the same first point */
     gathering first; /* where they do */
     path_memory_light lights[PATH_FEW_LIGHTS];
+    path_unmet unmet;
 } path_memory;
 
 /* Nothing is known yet. What is not set here is not read before it is; to clear all of it would take longer than many a
@@ -31,6 +47,7 @@ typedef struct path_memory {
 static inline void path_memory_begin(path_memory *memory, bool alike) {
     memory->alike = alike;
     memory->first.decided = false;
+    memory->unmet.count = 0;
     for (int i = 0; i < PATH_FEW_LIGHTS; i++) {
         memory->lights[i].kept = false;
         memory->lights[i].times_mixed = 0;

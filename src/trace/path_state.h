@@ -89,7 +89,9 @@ typedef struct path {
     known_lights known;
     path_control controls[PATH_CONTROLS]; /* so many are set: */
     int control_count;
-    rare_gloss gloss; /* at the last vertex */
+    rare_gloss gloss;     /* at the last vertex */
+    path_unmet_at *unmet; /* what the path, or its branch, has begun to look for; null: nothing */
+    rgb before;           /* the radiance then */
     path_rare rare;
 } path;
 

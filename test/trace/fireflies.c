@@ -102,8 +102,36 @@ static void bounded_in_a_corridor(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* Who survives roulette deep down carries no more light to the eye than most paths do before: in a grey ball, half of
+ * what a lamp shines after one reflection, and a sixth or so after five. */
+static void survivors_carry_little(void **state) {
+    (void)state;
+    graze_scene *scene =
+        scene_from_text("void plastic g 0 0 5 .5 .5 .5 0 0 g bubble room 0 0 4 0 0 0 1\n"
+                        "void light l 0 0 3 1 1 1 l polygon lamp 0 0 12 -.3 -.3 .9 -.3 .3 .9 .3 .3 .9 .3 -.3 .9\n");
+    assert_non_null(scene);
+    graze_trace_settings settings = graze_trace_defaults();
+    settings.strategy = GRAZE_STRATEGY_BRDF;
+    settings.ambient_bounces = 20;
+    path_memory memory = {.alike = true};
+    const path_context context = {.scene = scene, .settings = &settings, .memory = &memory};
+    path_hit first = path_cast(&context, (vec3){0, 0, 0}, (vec3){0, 0, -1}, GEOMETRY_FAR, -1);
+    int late = 0;
+    for (uint32_t i = 0; i < 20000; i++) {
+        sampler points = sampler_start(sampler_key(1, 2, 3), i);
+        path_sample sample;
+        path_radiance(&context, &first, &points, &sample);
+        assert_true(sample.radiance.g <= 0.5 * (1 + 1e-9));
+        /* Powers of 1/2 are of paths that no roulette was played with. */
+        late += sample.radiance.g > 0.26 && sample.radiance.g < 0.49;
+    }
+    assert_true(late > 10);
+    graze_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(survivors_carry_little),
         cmocka_unit_test(bounded_by_theory),
         cmocka_unit_test(bounded_in_a_corridor),
     };

@@ -1,0 +1,19 @@
+/* Light that may yet be found where a path looks for it only after panes and mirrors. An estimate whose samples are all
+ * alike there, since none of them has met any, must not claim to be certain: what would be found if nothing stood in
+ * the way of lights tells how much that may be. */
+#ifndef TRACE_UNMET_LIGHT_H
+#define TRACE_UNMET_LIGHT_H
+
+#include "trace/path_state.h"
+
+/* Notes what lights that are sampled at a vertex might give, at the first one after panes and mirrors. What is known of
+ * them without samples must have been added. */
+void unmet_light_expect(path *, const gathering *);
+
+/* Once the path, or its branch, has ended: takes whether it has met any of that. */
+void unmet_light_settle(path *);
+
+/* So much of a mean of `taken` samples is not met by any. */
+double unmet_light_of(const path_unmet *, double taken);
+
+#endif
