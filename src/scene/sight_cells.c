@@ -128,11 +128,13 @@ void sight_cells_destroy(struct sight_cells *c) {
 /* The cell in column x, row y of so many of either. */
 static geometry_visibility look(const graze_scene *scene, const grid *g, int light, int x, int y, int side) {
     const scene_light *l = &scene->lights[light];
+    if (l->only_seen)
+        return GEOMETRY_MIXED;
     vec3 step_x = vec3_scale(1.0 / side, g->x), step_y = vec3_scale(1.0 / side, g->y);
     vec3 corner = vec3_add_scaled(vec3_add_scaled(g->corner, x, step_x), y, step_y), next = vec3_add(corner, step_x);
     geometry_patch patch = {.corners = {corner, next, vec3_add(next, step_y), vec3_add(corner, step_y)},
                             .surface = g->surface,
-                            .light = l->surface,
+                            .light = (int)l->surface,
                             .axis = l->center,
                             .half_angle = l->half_angle};
     return geometry_sight_of_patch(scene->geometry, &patch);
