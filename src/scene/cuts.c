@@ -139,49 +139,92 @@ static bool next_hit(const geometry *g, geometry_ray *ray, geometry_hit *hit) {
     return true;
 }
 
-/* Whether a point is inside of any of the antimatters asked for. */
-static bool is_inside(const scene_cuts *cuts, uint64_t asked, vec3 point, vec3 direction) {
-    for (int i = 0; i < cuts->count; i++) {
-        geometry_ray ray = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
-        geometry_hit hit;
-        int balance = 0;
-        while ((asked & bit(i)) && next_hit(cuts->of[i], &ray, &hit))
-            balance += vec3_dot(hit.normal, direction) > 0 ? 1 : -1;
-        if (balance > 0)
-            return true;
+/* Begins a walk: nothing is known of what is behind the ray's points. */
+static void begin(scene_cuts_walk *walk) {
+    if (walk->begun)
+        return;
+    for (int i = 0; i < SCENE_CUTS_REMEMBERED; i++)
+        walk->antimatters[i].surface = walk->bodies[i].surface = -1;
+    walk->begun = true;
+}
+
+/* Whether two points of a surface are one but for roundings; if not, following the ray farther back is never wrong. */
+static bool is_same_crossing(const scene_cuts_crossing *known, int antimatter, const geometry_hit *hit, bool entered) {
+    return known->surface == hit->surface && known->antimatter == antimatter && known->entered == entered &&
+           vec3_max_abs(vec3_subtract(known->point, hit->point)) <= 1e-9 * vec3_max_abs(hit->point);
+}
+
+/* What one counts on the way back. */
+typedef struct crossings {
+    int antimatter;
+    const uint64_t *cut_by; /* only those surfaces count that it cuts; null: all do */
+    int64_t own;            /* so many have numbers in cut_by */
+} crossings;
+
+/* Counts from the ray's origin back, up to what is known already, and keeps that for points further on. */
+static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const crossings *counted,
+                                      scene_cuts_crossing *known) {
+    scene_cuts_crossing found = {.antimatter = counted->antimatter, .surface = -1};
+    geometry_hit hit;
+    while (next_hit(g, &ray, &hit)) {
+        if (counted->cut_by &&
+            (hit.surface >= counted->own || !(counted->cut_by[hit.surface] & bit(counted->antimatter))))
+            continue;
+        const bool entered = vec3_dot(hit.normal, ray.direction) > 0;
+        const bool is_known = is_same_crossing(known, counted->antimatter, &hit, entered);
+        const int most = found.balance + (is_known ? known->most : entered);
+        if (found.surface < 0) {
+            found.surface = hit.surface;
+            found.point = hit.point;
+            found.entered = entered;
+        }
+        if (most > found.most) {
+            found.most = most;
+            found.others = is_known          ? known->others
+                           : counted->cut_by ? counted->cut_by[hit.surface] & ~bit(counted->antimatter)
+                                             : 0;
+        }
+        found.balance += is_known ? known->balance : entered ? 1 : -1;
+        if (is_known)
+            break;
     }
+    *known = found;
+    return found;
+}
+
+/* Whether a point is inside of any of the antimatters asked for. */
+static bool is_inside(const scene_cuts *cuts, scene_cuts_walk *walk, uint64_t asked, vec3 point, vec3 direction) {
+    const geometry_ray back = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
+    for (int i = 0; i < cuts->count; i++)
+        if ((asked & bit(i)) &&
+            count_back(cuts->of[i], back, &(crossings){.antimatter = i}, &walk->antimatters[i % SCENE_CUTS_REMEMBERED])
+                    .balance > 0)
+            return true;
     return false;
 }
 
 /* Whether a point of an antimatter's boundary is inside of a body that it cuts, and that no other one has cut out
  * there. */
-static bool is_face(const graze_scene *scene, int antimatter, int64_t surface, vec3 point, vec3 direction) {
+static bool is_face(const graze_scene *scene, scene_cuts_walk *walk, int antimatter, int64_t surface, vec3 point,
+                    vec3 direction) {
     const scene_cuts *cuts = scene->cuts;
-    geometry_ray ray = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = surface};
-    geometry_hit hit;
-    uint64_t others = 0;
-    int balance = 0, most = 0;
-    while (next_hit(scene->geometry, &ray, &hit)) {
-        bool own = hit.surface < (int64_t)scene->surface_count;
-        if (!own || !(cuts->cut_by[hit.surface] & bit(antimatter)))
-            continue;
-        balance += vec3_dot(hit.normal, direction) > 0 ? 1 : -1;
-        if (balance > most) {
-            most = balance;
-            others = cuts->cut_by[hit.surface] & ~bit(antimatter);
-        }
-    }
-    return balance > 0 && !is_inside(cuts, others, point, direction);
+    const geometry_ray back = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = surface};
+    const crossings bodies = {antimatter, cuts->cut_by, (int64_t)scene->surface_count};
+    const scene_cuts_crossing found =
+        count_back(scene->geometry, back, &bodies, &walk->bodies[antimatter % SCENE_CUTS_REMEMBERED]);
+    return found.balance > 0 && !is_inside(cuts, walk, found.others, point, direction);
 }
 
-scene_presence scene_cuts_at(const graze_scene *scene, int64_t surface, vec3 point, vec3 direction) {
+scene_presence scene_cuts_at(const graze_scene *scene, scene_cuts_walk *walk, int64_t surface, vec3 point,
+                             vec3 direction) {
     const scene_cuts *cuts = scene->cuts;
     if (surface >= (int64_t)scene->surface_count)
         return SCENE_THERE;
+    begin(walk);
     int antimatter = cuts->antimatter[surface];
     const vec3 back = vec3_negate(direction);
     if (antimatter < 0)
-        return is_inside(cuts, cuts->cut_by[surface], point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
+        return is_inside(cuts, walk, cuts->cut_by[surface], point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
     bool closes = scene->materials[cuts->materials[antimatter]].alternate >= 0;
-    return closes && is_face(scene, antimatter, surface, point, back) ? SCENE_CUT_FACE : SCENE_CUT_AWAY;
+    return closes && is_face(scene, walk, antimatter, surface, point, back) ? SCENE_CUT_FACE : SCENE_CUT_AWAY;
 }

@@ -11,11 +11,11 @@ static bool has_back(const graze_scene *scene, int64_t surface) {
 
 /* Whether the ray goes on behind what it has met: what is cut away, and back faces that are hidden. A face of a cut has
  * its front in the antimatter, wherever this has its own. Apart from what all rays need, which is faster without it. */
-__attribute__((noinline)) static bool goes_on(const path_context *context, const geometry_ray *ray, geometry_hit *found,
-                                              bool *passed) {
+__attribute__((noinline)) static bool goes_on(const path_context *context, scene_cuts_walk *walk,
+                                              const geometry_ray *ray, geometry_hit *found, bool *passed) {
     const graze_scene *scene = context->scene;
     if (scene->cuts) {
-        scene_presence presence = scene_cuts_at(scene, found->surface, found->point, ray->direction);
+        scene_presence presence = scene_cuts_at(scene, walk, found->surface, found->point, ray->direction);
         if (presence == SCENE_CUT_AWAY)
             return true;
         if (presence == SCENE_CUT_FACE)
@@ -33,10 +33,12 @@ path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, dou
     const bool may_go_on = scene->cuts || !context->settings->back_faces_visible;
     geometry_ray ray = {.origin = origin, .direction = direction, .far = limit, .from = from};
     geometry_hit found;
+    scene_cuts_walk walk;
     double travelled = 0;
     bool passed = false;
+    walk.begun = false;
     while (geometry_intersect(scene->geometry, &ray, &found)) {
-        if (!may_go_on || !goes_on(context, &ray, &found, &passed))
+        if (!may_go_on || !goes_on(context, &walk, &ray, &found, &passed))
             return (path_hit){.surface = found.surface,
                               .light = scene_surface_at(scene, found.surface).light,
                               .distance = travelled + found.distance,

@@ -6,10 +6,11 @@
 #include "trace/appearance.h"
 
 /* What a surface that light passes lets through of the ray that meets it. One that is not there lets all. */
-static rgb pane_transmittance(const path_context *context, const geometry_hit *hit, vec3 direction, double length,
-                              double travelled, bool is_proper) {
+static rgb pane_transmittance(const path_context *context, scene_cuts_walk *walk, const geometry_hit *hit,
+                              vec3 direction, double length, double travelled, bool is_proper) {
     const graze_scene *scene = context->scene;
-    scene_presence presence = scene->cuts ? scene_cuts_at(scene, hit->surface, hit->point, direction) : SCENE_THERE;
+    scene_presence presence =
+        scene->cuts ? scene_cuts_at(scene, walk, hit->surface, hit->point, direction) : SCENE_THERE;
     if (presence == SCENE_CUT_AWAY)
         return rgb_gray(1);
     vec3 normal = presence == SCENE_CUT_FACE ? vec3_negate(hit->normal) : hit->normal;
@@ -41,11 +42,13 @@ rgb panes_transmittance(const path_context *context, const geometry_ray *ray, do
     if (geometry_occluded_but_for_panes(scene->geometry, ray, target, &panes))
         return rgb_gray(0);
     rgb transmittance = {1, 1, 1};
+    scene_cuts_walk walk;
     double travelled = 0;
+    walk.begun = false;
     while (panes && !rgb_is_black(transmittance) && geometry_intersect(scene->geometry, &left, &hit) &&
            hit.surface != target && scene_surface_passes(scene, hit.surface)) {
-        transmittance = rgb_multiply(transmittance,
-                                     pane_transmittance(context, &hit, ray->direction, length, travelled, is_proper));
+        transmittance = rgb_multiply(
+            transmittance, pane_transmittance(context, &walk, &hit, ray->direction, length, travelled, is_proper));
         travelled += hit.distance;
         left.origin = hit.point;
         left.far -= hit.distance;
