@@ -175,7 +175,7 @@ $(BUILD)/accuracy: test/accuracy/accuracy.c $(call archives,brdf) $(BUILD)/flags
 # one and making the hidden names local; three of them, so that a program that needs only the BRDF or the materials gets no more
 # than that, and needs nothing but libm.
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
-PARTS   := brdf material scene
+LIBRARY_PARTS := brdf material scene
 # Those of material's files that need scenes.
 FROM_SCENES      := amounts from_primitive function library modifier modify orientation prism reflection wgmd
 OBJECTS_brdf     := $(filter $(BUILD)/obj/brdf/%,$(OBJECTS))
@@ -187,8 +187,8 @@ $(BUILD)/parts/$(1).o: $(OBJECTS_$(1)) $(BUILD)/sources Makefile
 	$$(call say,$$@)$$(LD) -r -o $$@ $(OBJECTS_$(1))
 	@$$(OBJCOPY) --localize-hidden $$@
 endef
-$(foreach part,$(PARTS),$(eval $(call part_rule,$(part))))
-$(STATIC): $(PARTS:%=$(BUILD)/parts/%.o)
+$(foreach part,$(LIBRARY_PARTS),$(eval $(call part_rule,$(part))))
+$(STATIC): $(LIBRARY_PARTS:%=$(BUILD)/parts/%.o)
 	@mkdir -p $(@D)
 	@rm -f $@
 	$(call say,$@)$(AR) rcs $@ $^

@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "geometry/shaft.h"
 #include "scene/ambient_choice.h"
+#include "scene/balls.h"
 #include "scene/builder.h"
 #include "scene/cuts.h"
 #include "scene/light_pattern.h"
@@ -307,6 +308,8 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
         b.status = light_patterns_prepare(scene, scene_builder_threads(&b), report);
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
+    if (b.status == GRAZE_OK)
+        b.status = scene_balls_find(scene, report);
     if (b.status == GRAZE_OK)
         b.status = build_geometry(&b);
     free(b.material_of);

@@ -266,6 +266,38 @@ static bool reflect_image(path *p, const vertex *v, double chance, vec3 *directi
     return carry_on(p, v, GRAZE_LOBE_MIRROR, chance, direction);
 }
 
+/* After so many diffuse reflections gleams are left to luck: little is seen of them by then, and where weights are
+ * multiplied again and again, they scatter. */
+#define GLEAM_BOUNCES 2
+
+/* The gleams that a diffuse reflection is to look for: at the first point of all paths they are known. */
+static gleams *gleams_at(const path *p, const vertex *v, gleams *own) {
+    const graze_scene *scene = p->context->scene;
+    path_memory *memory = p->context->memory;
+    if (!path_is_at_first(p) || !memory || !memory->alike) {
+        gleams_expect(own, scene, v->point, v->shading.n);
+        return own->count > 0 ? own : NULL;
+    }
+    if (!memory->gleams_found)
+        gleams_look(&memory->gleams, scene, v->point, v->shading.n, v->surface);
+    memory->gleams_found = true;
+    return memory->gleams.count > 0 ? &memory->gleams : NULL;
+}
+
+/* A diffuse direction, and what its weight is to be multiplied by. */
+__attribute__((noinline)) static bool draw_by_gleams(path *p, const vertex *v, const double random[2],
+                                                     graze_surface_sample *sample, double *weight) {
+    gleams own;
+    gleams *toward = gleams_at(p, v, &own);
+    double turned[3] = {random[0], random[1], 0};
+    if (toward && !gleams_turn(toward, &v->shading, turned))
+        return false;
+    *sample = draw_direction(p, &v->shading, GRAZE_LOBE_DIFFUSE, turned);
+    if (toward)
+        *weight *= gleams_weight(toward, sample->direction, v->shading.n);
+    return true;
+}
+
 /* Goes on with one of the lobes of a side, by random[3], which is below the sum of their chances or means the end.
  * Where there is nothing but one side the other costs nothing. */
 static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v, const light_choice *lights,
@@ -282,8 +314,14 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
     if (!below && lobe == GRAZE_LOBE_MIRROR && is_image(p, v))
         return reflect_image(p, v, choice->specular, direction);
     bool ends = diffuse ? choice->diffuse_ends : choice->specular_ends;
-    double scale = 1 / (diffuse ? choice->diffuse : choice->specular);
-    graze_surface_sample sample = draw_direction(p, &v->shading, lobe, random);
+    double chance = diffuse ? choice->diffuse : choice->specular, scale = 1 / chance;
+    graze_surface_sample sample;
+    if (p->context->scene->balls && diffuse && !below && !ends && p->ambient_depth < GLEAM_BOUNCES) {
+        if (!draw_by_gleams(p, v, random, &sample, &scale))
+            return false;
+    } else {
+        sample = draw_direction(p, &v->shading, lobe, random);
+    }
     /* The function is found by diffuse samples. */
     if (v->function && diffuse)
         sample.weight = rgb_add_scaled(sample.weight, PI, vertex_function_value(v, sample.direction));
@@ -303,7 +341,7 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
     bool ambient = diffuse ? path_bounces_left(p) : !gloss_is_ambient;
     p->last = (scattering){
         .lobe = lobe,
-        .density = sample.density / scale,
+        .density = sample.density * chance,
         .direct = rgb_scale(scale, rgb_multiply(p->throughput, sample.weight)),
         .indirect = rgb_scale(scale, rgb_multiply(p->throughput, indirect)),
         .ambient = ambient && (!ends || p->context->settings->back_faces_visible),

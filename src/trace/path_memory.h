@@ -4,6 +4,7 @@
 
 #include "geometry/shaft.h"
 #include "trace/gathering.h"
+#include "trace/gleams.h"
 #include "trace/unshadowed.h"
 
 /* A scene has few lights if it has no more than this. At the first point all of few lights are sampled, and each has a
@@ -40,13 +41,15 @@ typedef struct path_memory {
     gathering first; /* where they do */
     path_memory_light lights[PATH_FEW_LIGHTS];
     path_unmet unmet;
+    bool gleams_found;
+    gleams gleams; /* as the first point sees them, where all paths have the same */
 } path_memory;
 
 /* Nothing is known yet. What is not set here is not read before it is; to clear all of it would take longer than many a
  * path. */
 static inline void path_memory_begin(path_memory *memory, bool alike) {
     memory->alike = alike;
-    memory->first.decided = false;
+    memory->first.decided = memory->gleams_found = false;
     memory->unmet.count = 0;
     for (int i = 0; i < PATH_FEW_LIGHTS; i++) {
         memory->lights[i].kept = false;
