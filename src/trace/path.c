@@ -93,7 +93,8 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
 static void take_indirect(path *p, const vertex *v) {
     const path_indirect *known = p->context->indirect;
     const graze_trace_settings *s = p->context->settings;
-    if (!known || !path_is_at_first(p) || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
+    if (!known || !path_is_at_first(p) || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v) ||
+        path_is_in_body(p))
         return;
     rgb reflectance = rgb_scale(1 / PI, v->shading.diffuse);
     rgb value = rgb_multiply(reflectance, known->irradiance), error = rgb_multiply(reflectance, known->error);
