@@ -246,7 +246,7 @@ static int add_material(scene_builder *b, int modifier) {
         return MATERIAL_REFUSED;
     }
     scene->materials[scene->material_count] = made;
-    scene->has_mirrors = scene->has_mirrors || is_mirror(scene, &made) || scene_material_bends(&made);
+    scene->has_mirrors = scene->has_mirrors || is_mirror(scene, &made);
     scene->has_panes = scene->has_panes || scene_material_is_pane(scene, &made);
     scene->has_refraction = scene->has_refraction || scene_material_bends(&made);
     return (int)scene->material_count++;

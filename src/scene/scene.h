@@ -143,7 +143,7 @@ struct graze_scene {
     scene_material *materials;
     size_t material_count;
     material_modifiers *modifiers; /* null where no material has any */
-    bool has_mirrors;              /* not faint ones, or dielectrics: light comes by ways that no light sample finds */
+    bool has_mirrors;              /* not faint ones: light comes by ways that no light sample finds */
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
     bool has_panes;            /* surfaces that light goes straight through */

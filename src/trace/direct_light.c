@@ -28,7 +28,7 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
     light_receiver receiver = {.point = v->point, .surface = &v->shading, .diffuse = v->shading.diffuse};
     if (v->function)
         receiver.diffuse = rgb_add(receiver.diffuse, v->function_color);
-    if (!context_samples_lights(context->settings) ||
+    if (!context_samples_lights(context->settings) || p->wanted == WANTED_BENT ||
         (!glossy && rgb_is_black(v->ambient) && rgb_is_black(receiver.diffuse))) {
         light_choice_none(lights);
         return;
@@ -66,7 +66,7 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
     light_receiver receiver = {.point = v->point, .surface = &beyond->surface, .diffuse = s->transmitted_diffuse};
     if (v->function)
         receiver.diffuse = rgb_add(receiver.diffuse, v->transmitted_function);
-    if (!context_samples_lights(p->context->settings) ||
+    if (!context_samples_lights(p->context->settings) || p->wanted == WANTED_BENT ||
         (!glossy && rgb_is_black(v->transmitted_ambient) && rgb_is_black(receiver.diffuse))) {
         light_choice_none(&beyond->lights);
         return;

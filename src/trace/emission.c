@@ -1,6 +1,7 @@
 /* Light from emitters that reflections lead to, by Radiance's rules of what counts. */
 #include "trace/emission.h"
 
+#include "base/angle.h"
 #include "scene/surface.h"
 #include "trace/appearance.h"
 #include "trace/known_light.h"
@@ -72,12 +73,32 @@ void emission_pass_secondary(path *p, const path_hit *hit) {
     p->last.veiled = true;
 }
 
+/* A light that is seen in less than this part of all directions, each counted by its cosine, is small. */
+#define SMALL 0.005
+
+static bool is_small(const scene_light *light, double distance) {
+    if (!light->shape)
+        return sin(light->half_angle / 2) * sin(light->half_angle / 2) * 4 < SMALL;
+    return shape_area(light->shape) < SMALL * PI * distance * distance;
+}
+
+/* By wanted_light. */
+static bool is_wanted(const path *p, const scene_light *light, double distance) {
+    const scattering *last = &p->last;
+    if (p->wanted == WANTED_BENT && last->first)
+        return true;
+    bool bent = last->refracted && ((p->gathering && last->first) || is_small(light, distance));
+    return bent == (p->wanted == WANTED_BENT);
+}
+
 rgb emission_found_of(const path *p, const path_hit *hit) {
     scene_light turned;
     const scene_light *light = light_of(p, hit, &turned);
     light_role role = light_role_at(light, hit->distance + p->last.travelled);
     rgb radiance = light_radiance(light, hit->direction, hit->normal), throughput = p->throughput;
     if (rgb_is_black(radiance) || (role == LIGHT_NONE && p->scattered) || is_seen_through(p, light))
+        return rgb_gray(0);
+    if (p->wanted != WANTED_ALL && !is_wanted(p, light, hit->distance + p->last.travelled))
         return rgb_gray(0);
     if (lobe_scatters(p->last.lobe)) {
         if (known_light_is_settled(p, hit->light))

@@ -9,6 +9,7 @@
 #include "base/report.h"
 #include "scene/surface.h"
 #include "trace/irradiance_cell.h"
+#include "trace/mist.h"
 #include "trace/path.h"
 #include "trace/sampler.h"
 
@@ -211,7 +212,8 @@ static bool build_half(pilot *p, size_t count, int threads) {
  * another where paths end early. */
 static bool is_of_use(const path_context *context) {
     const graze_trace_settings *s = context->settings;
-    return s->ambient_bounces > 1 && context_samples_lights(s) && !context->scene->has_mirrors &&
+    const bool looks_through_mist = context->scene->has_refraction && mist_is_there(context);
+    return s->ambient_bounces > 1 && context_samples_lights(s) && !context->scene->has_mirrors && !looks_through_mist &&
            s->reflection_limit == 0;
 }
 

@@ -8,7 +8,10 @@
  *
  * There are two caches in one, of independent pilot paths and cells, and each cell has been answered four times, from
  * other points by other paths. Paths take the mean of all these parts; how much what they add up to differs tells how
- * wrong it is. */
+ * wrong it is.
+ *
+ * What dielectrics and prisms bend of small lights is found by luck alone, in few cells, and too much of it there: no
+ * cell has any, and some of the paths that end in one look for that (wanted_light in trace/path_state.h). */
 #ifndef TRACE_IRRADIANCE_CACHE_H
 #define TRACE_IRRADIANCE_CACHE_H
 

@@ -68,11 +68,16 @@ static bool finds_lights(const path *p, graze_lobe lobe) {
 /* A lobe that matters little still gets a tenth, lest its rare samples carry huge weights. */
 #define LEAST_SHARE 0.1
 
+/* A path that only looks for bent light goes on so often, where it goes on at all: there is little of that. */
+#define LOOKS_ON 0.25
+
 /* How likely the path takes a lobe. One that may not go on is taken only to find lights. */
 static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
     double chance = goes_on ? survival(p, reflectance) : 0;
     if (context_samples_lights(p->context->settings) && p->depth > 0)
         chance = fmin(chance, fmax(rgb_max(rgb_multiply(p->throughput, reflectance)) / WORTH_FOLLOWING, 0.05));
+    if (p->wanted == WANTED_BENT)
+        chance *= LOOKS_ON;
     *ends = chance == 0;
     return *ends && finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : chance;
 }
@@ -81,7 +86,7 @@ static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool 
 static inline lobe_choice chances_above(const path *p, const vertex *v) {
     lobe_choice choice = {0};
     rgb matte = v->function ? rgb_add(v->ambient, v->function_color) : v->ambient;
-    bool follows = path_bounces_left(p) && !(p->indirect_known && p->depth == 0);
+    bool follows = path_bounces_left(p) && (!(p->indirect_known && p->depth == 0) || p->context->scene->has_refraction);
     choice.diffuse = lobe_chance(p, GRAZE_LOBE_DIFFUSE, matte, follows, &choice.diffuse_ends);
     if (v->shading.specular_lobe == GRAZE_LOBE_MIRROR)
         choice.specular =
@@ -246,6 +251,7 @@ static bool carry_on(path *p, const vertex *v, graze_lobe lobe, double chance, v
 /* Lets the path through. What a light sample would have found beyond it may still find, unless it is refracted. */
 static bool pass(path *p, const vertex *v, double chance, vec3 *direction) {
     p->last.refracted = p->last.refracted || v->refracts;
+    p->searching = p->searching || (p->last.refracted && p->last.first && p->scattered);
     p->passages++;
     go_below(p, v);
     return carry_on(p, v, GRAZE_LOBE_TRANSMITTED, chance, direction);
@@ -355,6 +361,8 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
         return false;
     if (below)
         go_below(p, v);
+    if (diffuse && p->indirect_known && p->depth == 0 && p->context->scene->has_refraction)
+        p->wanted = WANTED_BENT;
     p->depth++;
     p->ambient_depth += diffuse;
     p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;

@@ -162,6 +162,7 @@ static void add_from(path *p, const vertex *v, int mirror, double expectation, c
 void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
     bool dull = v->shading.specular_lobe != GRAZE_LOBE_GLOSSY && rgb_is_black(v->ambient) && !v->function;
+    dull = dull || p->wanted == WANTED_BENT;
     int count = dull ? 0 : count_shown(p->context, v);
     double random[3];
     if (count == 0)

@@ -24,6 +24,8 @@
 
 /* The ambient value stands for the diffuse light that is not followed. */
 static void add_ambient_value(path *p, const vertex *v) {
+    if (p->wanted == WANTED_BENT)
+        return;
     rgb ambient = v->shading.transmits ? rgb_add(v->ambient, v->transmitted_ambient) : v->ambient;
     rgb reflected = rgb_multiply(ambient, p->context->settings->ambient_value);
     rgb found = rgb_multiply(p->throughput, reflected);
@@ -39,13 +41,29 @@ static bool reflects_plainly(const vertex *v) {
            !v->shading.transmits;
 }
 
+/* So many of the paths that end in the cache look for bent light instead. */
+#define LOOKS_FOR_BENT 0.25
+
+/* Has the path go on to look for what the cache does not tell, now and then: by diffuse reflection; else, by specular
+ * ones. True: that is what it does. */
+static bool look_for_bent(path *p, vertex *v) {
+    bool looks = sampler_1d(p->sampler) < LOOKS_FOR_BENT;
+    p->throughput = rgb_scale(1 / (looks ? LOOKS_FOR_BENT : 1 - LOOKS_FOR_BENT), p->throughput);
+    if (!looks)
+        return false;
+    p->wanted = WANTED_BENT;
+    v->shading.specular = rgb_gray(0);
+    v->shading.specular_lobe = GRAZE_LOBE_NONE;
+    return true;
+}
+
 /* Takes what the cache tells of the point that a diffuse reflection has led to, or notes the record that is asked for.
  * What the surface reflects specularly is left of the vertex. True: nothing is, and the path ends. There must be one of
  * both. */
 static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
     const path_context *context = p->context;
     if (p->last.lobe != GRAZE_LOBE_DIFFUSE || p->ambient_depth != 1 || context->settings->ambient_bounces < 2 ||
-        !reflects_plainly(v) || path_is_in_body(p))
+        p->wanted == WANTED_BENT || !reflects_plainly(v) || path_is_in_body(p))
         return false;
     irradiance_record record = {v->point, v->shading.n, v->surface, hit->distance};
     rgb irradiance[IRRADIANCE_PARTS];
@@ -62,6 +80,8 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
         p->radiance = rgb_add_scaled(p->radiance, 1.0 / IRRADIANCE_PARTS, told);
     }
     p->cached = true;
+    if (context->scene->has_refraction && p->wanted == WANTED_ALL && look_for_bent(p, v))
+        return false;
     v->shading.diffuse = v->ambient = rgb_gray(0);
     return v->shading.specular_lobe == GRAZE_LOBE_NONE;
 }
@@ -73,7 +93,8 @@ static bool take_from_cache(path *p, const path_hit *hit, vertex *v) {
 static void take_indirect(path *p, const vertex *v) {
     const path_indirect *known = p->context->indirect;
     const graze_trace_settings *s = p->context->settings;
-    if (!known || !path_is_at_first(p) || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v))
+    if (!known || !path_is_at_first(p) || rgb_is_black(v->shading.diffuse) || !reflects_plainly(v) ||
+        path_is_in_body(p))
         return;
     rgb reflectance = rgb_scale(1 / PI, v->shading.diffuse);
     rgb value = rgb_multiply(reflectance, known->irradiance), error = rgb_multiply(reflectance, known->error);
@@ -263,6 +284,7 @@ static void begin_branch(path *p, const path_branch *b, int number) {
     p->depth = b->depth;
     p->passages = b->passages;
     p->known = (known_lights){.shared = true};
+    p->wanted = WANTED_ALL;
     p->gloss = RARE_GLOSS_NONE;
     p->ambient_depth = 0;
     p->scattered = false;
@@ -305,6 +327,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->last.refracted = p->last.veiled = false;
     p->last.travelled = 0;
     p->known = (known_lights){.shared = false};
+    p->wanted = WANTED_ALL;
     p->integrated = p->cached = p->gathering = p->indirect_known = false;
     p->control_count = 0;
     p->unmet = NULL;
@@ -374,10 +397,12 @@ void path_radiance(const path_context *context, const path_hit *first, sampler *
 }
 
 /* A path that begins at a vertex, as if it had been reflected diffusely that often. */
-static void path_from(const path_context *context, sampler *points, vertex v, int ambient_depth, path_sample *sample) {
+static void path_from(const path_context *context, sampler *points, vertex v, int ambient_depth, wanted_light wanted,
+                      path_sample *sample) {
     path p;
     path_start(&p, context, points);
     p.ambient_depth = ambient_depth;
+    p.wanted = wanted;
     p.medium = rgb_gray(1);
     gathering own, *here = begin_at(context, &own);
     here->vertex = v;
@@ -386,12 +411,13 @@ static void path_from(const path_context *context, sampler *points, vertex v, in
 }
 
 void path_irradiance(const path_context *context, vec3 point, vec3 normal, sampler *points, path_sample *sample) {
-    path_from(context, points, vertex_of_sensor(point, normal), 0, sample);
+    path_from(context, points, vertex_of_sensor(point, normal), 0, WANTED_ALL, sample);
 }
 
 void path_irradiance_at(const path_context *context, const irradiance_record *record, sampler *points,
                         path_sample *sample) {
-    path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1, sample);
+    path_from(context, points, vertex_of_point(record->point, record->normal, record->surface), 1, WANTED_STRAIGHT,
+              sample);
 }
 
 bool path_asks_indirect(const path_context *context, const path_hit *first, irradiance_record *record) {
@@ -409,6 +435,8 @@ void path_indirect_at(const path_context *context, const irradiance_record *reco
     path p;
     path_start(&p, context, points);
     p.gathering = true;
+    p.medium = rgb_gray(1);
+    p.wanted = WANTED_STRAIGHT;
     gathering own, *here = begin_at(context, &own);
     here->vertex = vertex_of_point(record->point, record->normal, record->surface);
     follow(&p, here);

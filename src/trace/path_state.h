@@ -34,6 +34,16 @@ typedef struct known_lights {
     bool shared;       /* the controls are one for all */
 } known_lights;
 
+/* Light that has been bent, by a dielectric or a prism, on its way to where it was scattered is found by luck alone,
+ * and of a small light so seldom that one path has far more of it than most. What is kept for many paths has none of
+ * that, nor does what pixels share have any bent light that arrives there itself, which may have edges: paths that use
+ * it look for these. */
+typedef enum wanted_light {
+    WANTED_ALL,
+    WANTED_STRAIGHT, /* all but that */
+    WANTED_BENT,     /* that; and all that the first scattering finds */
+} wanted_light;
+
 /* Where a vertex reflects small lights by a narrow lobe after a diffuse reflection (trace/rare_gloss.h). */
 typedef enum rare_gloss {
     RARE_GLOSS_NONE, /* it does not */
@@ -70,16 +80,17 @@ typedef struct path {
     rgb told[IRRADIANCE_PARTS]; /* as in path_sample, where it is `cached` */
     rgb direct; /* of `radiance`: what was there once the path had scattered and the light found then was added */
     rgb albedo; /* of the first point */
-    rgb indirect_light;  /* before the path scattered: of the ambient value, or known beforehand */
-    int ambient_depth;   /* diffuse reflections so far */
-    int ambient_limit;   /* how many there may be at this vertex */
-    int depth;           /* all reflections so far */
-    int passages;        /* how often it has been let through, straight on or refracted */
-    bool in_mist;        /* there is mist (trace/mist.h) */
-    bool hindered;       /* something may be on the way of light: mist, panes, clear bodies, or illums */
-    rgb medium;          /* transmittance of a unit of length where the path is; set where the scene refracts */
-    bool scattered;      /* whether any of them was not a mirror's */
-    bool searching;      /* whether one may meet lights that no light sample finds */
+    rgb indirect_light; /* before the path scattered: of the ambient value, or known beforehand */
+    int ambient_depth;  /* diffuse reflections so far */
+    int ambient_limit;  /* how many there may be at this vertex */
+    int depth;          /* all reflections so far */
+    int passages;       /* how often it has been let through, straight on or refracted */
+    bool in_mist;       /* there is mist (trace/mist.h) */
+    bool hindered;      /* something may be on the way of light: mist, panes, clear bodies, or illums */
+    rgb medium;         /* transmittance of a unit of length where the path is; set where the scene refracts */
+    bool scattered;     /* whether any of them was not a mirror's */
+    bool searching;     /* whether one may meet lights that no light sample finds */
+    wanted_light wanted;
     bool gathering;      /* all that is asked is what the first point gets but straight from lights */
     bool indirect_known; /* that was known beforehand, with this error in what is reflected: */
     rgb indirect_error;

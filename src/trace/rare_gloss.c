@@ -112,7 +112,7 @@ static bool is_body(shape_kind kind) {
 rare_gloss rare_gloss_at(path *p, const vertex *v) {
     graze_lobe lobe = v->shading.specular_lobe;
     bool mirror = lobe == GRAZE_LOBE_MIRROR;
-    if (p->ambient_depth == 0 || (lobe != GRAZE_LOBE_GLOSSY && !mirror) ||
+    if (p->ambient_depth == 0 || p->wanted == WANTED_BENT || (lobe != GRAZE_LOBE_GLOSSY && !mirror) ||
         !context_samples_lights(p->context->settings) || spread(v) >= RARE || (mirror && is_sampled_mirror(p, v)))
         return RARE_GLOSS_NONE;
     const graze_scene *scene = p->context->scene;

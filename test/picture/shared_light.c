@@ -113,6 +113,16 @@ static void what_is_shared_beside_panes_and_mirrors_is_true(void **state) {
     assert_true_picture(text, 1);
 }
 
+/* What a ball of glass bends of the window's light is looked for on the floor. */
+static void what_is_shared_beside_glass_is_true(void **state) {
+    (void)state;
+    static const char glass[] = "void dielectric crystal 0 0 5 .9 .95 .98 1.5 0\n"
+                                "crystal sphere paperweight 0 0 4 1.8 2 .25 .25\n";
+    char text[sizeof rooms + sizeof glass];
+    snprintf(text, sizeof text, "%s%s", rooms, glass);
+    assert_true_picture(text, 1);
+}
+
 /* A glow in a mixture lights what is about, but only by reflections that lead to it; a light there lights nothing. */
 static void lights_that_are_only_met_are_not_lost(void **state) {
     (void)state;
@@ -195,6 +205,7 @@ int main(void) {
         cmocka_unit_test(threads_do_not_change_the_bytes),
         cmocka_unit_test(what_is_shared_is_true),
         cmocka_unit_test(what_is_shared_beside_panes_and_mirrors_is_true),
+        cmocka_unit_test(what_is_shared_beside_glass_is_true),
         cmocka_unit_test(lights_that_are_only_met_are_not_lost),
         cmocka_unit_test(light_of_copies_is_shared),
         cmocka_unit_test(most_pixels_share),
