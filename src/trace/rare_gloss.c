@@ -8,6 +8,11 @@
 /* What is found in so large a part of all cases is not rare. */
 #define RARE 0.25
 
+/* Whether it is a clear body's surface. */
+static bool is_clear(const vertex *v) {
+    return v->shading.transmits && v->refracts;
+}
+
 /* Whether what matters about light from a direction is the lobe that the surface transmits. */
 static bool is_beyond(const vertex *v, vec3 direction) {
     return vec3_dot(direction, v->shading.n) < 0;
@@ -17,6 +22,8 @@ static bool is_beyond(const vertex *v, vec3 direction) {
  * so much where they leave the surface steeply. A mirror's do not spread; what is transmitted is not turned so. */
 static double spread(const vertex *v, bool beyond) {
     const graze_surface *s = &v->shading;
+    if (is_clear(v))
+        return 0;
     if (beyond)
         return s->transmitted_u * s->transmitted_v;
     return s->specular_lobe == GRAZE_LOBE_MIRROR ? 0 : 4 * s->lobe.alpha_x * s->lobe.alpha_y;
@@ -97,6 +104,34 @@ static void expect_on_body(path *p, const vertex *v, int index) {
     expect(p, v, brightness_by_gloss(p, v, false, &sample) / (4 * PI * sample.density), share);
 }
 
+/* A clear body sends light on in all directions, mirrored or bent, in the mean over all ways that it may be turned: as
+ * a ball does that mirrors it all. But it gathers much of it in beams, which most places are not in: these get about so
+ * much of the mean. */
+#define OUTSIDE_BEAMS 0.5
+
+/* What the path carries to the light is what it did before it came there. */
+static void expect_in_clear_body(path *p, const vertex *v, int index) {
+    light_sample sample;
+    if (!look_at_light(p, v, index, &sample) || !body_is_lit(p, v, &sample))
+        return;
+    bool direct = light_role_at(&p->context->scene->lights[index], sample.distance) == LIGHT_DIRECT;
+    double share = 1 / (4 * PI * sample.density);
+    rgb carried = direct ? p->last.direct : p->last.indirect;
+    expect(p, v, rgb_brightness(rgb_multiply(carried, sample.radiance)) * OUTSIDE_BEAMS * share, share);
+    p->rare.by_mirrors = true;
+}
+
+/* Where a path comes to such a body. */
+static rare_gloss clear_body_at(path *p, const vertex *v) {
+    size_t count = p->context->scene->light_count;
+    if (count > PATH_FEW_LIGHTS)
+        return RARE_GLOSS_NONE;
+    if (!p->last.refracted && lobe_scatters(p->last.lobe))
+        for (int i = 0; i < (int)count; i++)
+            expect_in_clear_body(p, v, i);
+    return RARE_GLOSS_CURVED;
+}
+
 /* The lights in a flat mirror are not sampled, but looked at: each, or one of many. */
 static void expect_in_mirror(path *p, const vertex *v, int index, double expectation) {
     const graze_scene *scene = p->context->scene;
@@ -122,6 +157,8 @@ static bool is_body(shape_kind kind) {
 rare_gloss rare_gloss_at(path *p, const vertex *v) {
     graze_lobe lobe = v->shading.specular_lobe;
     bool mirror = lobe == GRAZE_LOBE_MIRROR;
+    if (p->ambient_depth > 0 && is_clear(v) && context_samples_lights(p->context->settings))
+        return clear_body_at(p, v);
     if (p->ambient_depth == 0 || (lobe != GRAZE_LOBE_GLOSSY && !mirror) ||
         !context_samples_lights(p->context->settings) || spread(v, false) >= RARE ||
         (mirror && is_sampled_mirror(p, v)))
@@ -158,7 +195,7 @@ void rare_gloss_find(path *p, const vertex *v, vec3 direction, double light_dens
 
 void rare_gloss_find_met(path *p, const vertex *v, const path_hit *hit, rgb found) {
     const graze_surface *s = &v->shading;
-    if (p->last.lobe != (is_beyond(v, hit->direction) ? s->transmitted_lobe : s->specular_lobe))
+    if (!is_clear(v) && p->last.lobe != (is_beyond(v, hit->direction) ? s->transmitted_lobe : s->specular_lobe))
         return;
     rare_gloss_find(p, v, hit->direction,
                     light_density(p->context->scene, v->point, hit->light, hit->direction, hit->point, hit->normal),
