@@ -167,7 +167,7 @@ static ONE_SIDE void add_sampled_light(path *p, const vertex *v, int light, doub
         return;
     reflectance r = reflectance_for_light(p, v, &sample, density, choice, below);
     rgb reflected = rgb_multiply(rgb_add(r.diffuse, r.glossy), sample.radiance);
-    rare_gloss rare = below || !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
+    rare_gloss rare = !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
     if (rare != RARE_GLOSS_FLAT && rgb_is_black(reflected))
         return;
     rgb weight = rgb_scale(cosine / density, p->throughput), whole = rgb_multiply(weight, reflected);
@@ -179,7 +179,8 @@ static ONE_SIDE void add_sampled_light(path *p, const vertex *v, int light, doub
         arrived.radiance = rgb_multiply(sample.radiance, passed);
         if (rare == RARE_GLOSS_FLAT)
             rare_gloss_expect(p, v, &arrived, expectation);
-        rare_gloss_find(p, v, sample.density, rgb_multiply(weight, rgb_multiply(r.glossy, arrived.radiance)));
+        rare_gloss_find(p, v, sample.direction, sample.density,
+                        rgb_multiply(weight, rgb_multiply(r.glossy, arrived.radiance)));
     }
     if (lit && !rgb_is_black(reflected)) {
         p->radiance = rgb_add(p->radiance, found);

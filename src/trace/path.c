@@ -158,10 +158,13 @@ static void decide_for_both(const path *p, gathering *here, other_side *beyond) 
 /* Light that comes from the other side, of which nothing is known without sampling. */
 static void gather_below(path *p, const vertex *v, const other_side *beyond) {
     known_lights above = p->known;
+    rare_gloss gloss = p->gloss;
+    p->gloss = rare_gloss_beyond(p, v);
     p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
     if (light_choice_is_possible(&beyond->lights) && !p->context->record)
         direct_light_add_below(p, v, &beyond->lights, &beyond->lobes);
     p->known = above;
+    p->gloss = gloss ? gloss : p->gloss;
 }
 
 /* What the way to a hit leaves of the light; apart from what all scenes need, which is faster without it. */

@@ -8,21 +8,35 @@
 /* What is found in so large a part of all cases is not rare. */
 #define RARE 0.25
 
+/* Whether it is a clear body's surface. */
+static bool is_clear(const vertex *v) {
+    return v->shading.transmits && v->refracts;
+}
+
+/* Whether what matters about light from a direction is the lobe that the surface transmits. */
+static bool is_beyond(const vertex *v, vec3 direction) {
+    return vec3_dot(direction, v->shading.n) < 0;
+}
+
 /* 4 times the area of the ellipse that half vectors lie in, over pi: directions, turned by twice the angle, spread over
- * so much where they leave the surface steeply. A mirror's do not spread. */
-static double spread(const vertex *v) {
+ * so much where they leave the surface steeply. A mirror's do not spread; what is transmitted is not turned so. */
+static double spread(const vertex *v, bool beyond) {
     const graze_surface *s = &v->shading;
+    if (is_clear(v))
+        return 0;
+    if (beyond)
+        return s->transmitted_u * s->transmitted_v;
     return s->specular_lobe == GRAZE_LOBE_MIRROR ? 0 : 4 * s->lobe.alpha_x * s->lobe.alpha_y;
 }
 
 /* The part of all directions, each counted by its cosine, from which a light is seen in the gloss of a flat surface:
  * its image's, of the solid angle 1/density, and the lobe's. */
-static double share_of_directions(const vertex *v, double density) {
-    return spread(v) + 1 / (PI * density);
+static double share_of_directions(const vertex *v, bool beyond, double density) {
+    return spread(v, beyond) + 1 / (PI * density);
 }
 
-static bool is_rare(const vertex *v, double density) {
-    return density > 0 && share_of_directions(v, density) < RARE;
+static bool is_rare(const vertex *v, bool beyond, double density) {
+    return density > 0 && share_of_directions(v, beyond, density) < RARE;
 }
 
 /* Notes what comes by one in 1/share of all cases. */
@@ -33,18 +47,21 @@ static void expect(path *p, const vertex *v, double expected, double share) {
     p->rare.squares += expected * expected * (1 / share - 1);
 }
 
-static double brightness_by_gloss(const path *p, const vertex *v, const light_sample *sample) {
-    return rgb_brightness(rgb_multiply(rgb_multiply(p->throughput, v->shading.specular), sample->radiance));
+static double brightness_by_gloss(const path *p, const vertex *v, bool beyond, const light_sample *sample) {
+    rgb color = beyond ? v->shading.transmitted_specular : v->shading.specular;
+    return rgb_brightness(rgb_multiply(rgb_multiply(p->throughput, color), sample->radiance));
 }
 
 /* Of many lights, one that is hardly ever chosen counts as one chosen at random: it would else be expected to give
  * much, once in a long while. */
 void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, double expectation) {
-    if (!is_rare(v, sample->density))
+    bool beyond = is_beyond(v, sample->direction);
+    if (!is_rare(v, beyond, sample->density))
         return;
     double often = fmax(expectation, 1.0 / p->context->scene->light_count);
-    double cosine = vec3_dot(sample->direction, v->shading.n), times = 1 / (often * sample->density);
-    expect(p, v, brightness_by_gloss(p, v, sample) * times * cosine / PI, share_of_directions(v, sample->density));
+    double cosine = fabs(vec3_dot(sample->direction, v->shading.n)), times = 1 / (often * sample->density);
+    expect(p, v, brightness_by_gloss(p, v, beyond, sample) * times * cosine / PI,
+           share_of_directions(v, beyond, sample->density));
 }
 
 /* Whether light from the direction arrives at the body that a vertex belongs to: there, or else where a ray from there
@@ -68,7 +85,7 @@ static bool look_at_light(const path *p, const vertex *v, int index, light_sampl
     static const double middle[2] = {0.5, 0.5};
     const scene_light *light = &p->context->scene->lights[index];
     *sample = light_draw(p->context->scene, v->point, p->length, index, middle);
-    if (sample->light < 0 || !is_rare(v, sample->density) || rgb_is_black(sample->radiance))
+    if (sample->light < 0 || !is_rare(v, false, sample->density) || rgb_is_black(sample->radiance))
         return false;
     light_role role = light_role_at(light, sample->distance);
     return role == LIGHT_DIRECT ||
@@ -83,8 +100,36 @@ static void expect_on_body(path *p, const vertex *v, int index) {
     if (!look_at_light(p, v, index, &sample) || !body_is_lit(p, v, &sample))
         return;
     double half = sqrt(fmax((1 + vec3_dot(sample.direction, v->shading.view)) / 2, 0));
-    double share = spread(v) / 4 * fmax(half, 0.1) + 1 / (4 * PI * sample.density);
-    expect(p, v, brightness_by_gloss(p, v, &sample) / (4 * PI * sample.density), share);
+    double share = spread(v, false) / 4 * fmax(half, 0.1) + 1 / (4 * PI * sample.density);
+    expect(p, v, brightness_by_gloss(p, v, false, &sample) / (4 * PI * sample.density), share);
+}
+
+/* A clear body sends light on in all directions, mirrored or bent, in the mean over all ways that it may be turned: as
+ * a ball does that mirrors it all. But it gathers much of it in beams, which most places are not in: these get about so
+ * much of the mean. */
+#define OUTSIDE_BEAMS 0.5
+
+/* What the path carries to the light is what it did before it came there. */
+static void expect_in_clear_body(path *p, const vertex *v, int index) {
+    light_sample sample;
+    if (!look_at_light(p, v, index, &sample) || !body_is_lit(p, v, &sample))
+        return;
+    bool direct = light_role_at(&p->context->scene->lights[index], sample.distance) == LIGHT_DIRECT;
+    double share = 1 / (4 * PI * sample.density);
+    rgb carried = direct ? p->last.direct : p->last.indirect;
+    expect(p, v, rgb_brightness(rgb_multiply(carried, sample.radiance)) * OUTSIDE_BEAMS * share, share);
+    p->rare.by_mirrors = true;
+}
+
+/* Where a path comes to such a body. */
+static rare_gloss clear_body_at(path *p, const vertex *v) {
+    size_t count = p->context->scene->light_count;
+    if (count > PATH_FEW_LIGHTS)
+        return RARE_GLOSS_NONE;
+    if (!p->last.refracted && lobe_scatters(p->last.lobe))
+        for (int i = 0; i < (int)count; i++)
+            expect_in_clear_body(p, v, i);
+    return RARE_GLOSS_CURVED;
 }
 
 /* The lights in a flat mirror are not sampled, but looked at: each, or one of many. */
@@ -112,8 +157,12 @@ static bool is_body(shape_kind kind) {
 rare_gloss rare_gloss_at(path *p, const vertex *v) {
     graze_lobe lobe = v->shading.specular_lobe;
     bool mirror = lobe == GRAZE_LOBE_MIRROR;
+    if (p->ambient_depth > 0 && p->wanted != WANTED_STRAIGHT && is_clear(v) &&
+        context_samples_lights(p->context->settings))
+        return clear_body_at(p, v);
     if (p->ambient_depth == 0 || p->wanted == WANTED_BENT || (lobe != GRAZE_LOBE_GLOSSY && !mirror) ||
-        !context_samples_lights(p->context->settings) || spread(v) >= RARE || (mirror && is_sampled_mirror(p, v)))
+        !context_samples_lights(p->context->settings) || spread(v, false) >= RARE ||
+        (mirror && is_sampled_mirror(p, v)))
         return RARE_GLOSS_NONE;
     const graze_scene *scene = p->context->scene;
     bool few = scene->light_count <= PATH_FEW_LIGHTS;
@@ -134,14 +183,22 @@ rare_gloss rare_gloss_at(path *p, const vertex *v) {
     return RARE_GLOSS_MIRROR;
 }
 
-void rare_gloss_find(path *p, const vertex *v, double light_density, rgb found) {
-    if (is_rare(v, light_density))
+rare_gloss rare_gloss_beyond(const path *p, const vertex *v) {
+    bool rare = p->ambient_depth > 0 && v->shading.transmitted_lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY &&
+                context_samples_lights(p->context->settings) && spread(v, true) < RARE;
+    return rare ? RARE_GLOSS_FLAT : RARE_GLOSS_NONE;
+}
+
+void rare_gloss_find(path *p, const vertex *v, vec3 direction, double light_density, rgb found) {
+    if (is_rare(v, is_beyond(v, direction), light_density))
         p->rare.found += rgb_brightness(found);
 }
 
 void rare_gloss_find_met(path *p, const vertex *v, const path_hit *hit, rgb found) {
-    if (p->last.lobe != v->shading.specular_lobe)
+    const graze_surface *s = &v->shading;
+    if (!is_clear(v) && p->last.lobe != (is_beyond(v, hit->direction) ? s->transmitted_lobe : s->specular_lobe))
         return;
-    rare_gloss_find(
-        p, v, light_density(p->context->scene, v->point, hit->light, hit->direction, hit->point, hit->normal), found);
+    rare_gloss_find(p, v, hit->direction,
+                    light_density(p->context->scene, v->point, hit->light, hit->direction, hit->point, hit->normal),
+                    found);
 }

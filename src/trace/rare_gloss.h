@@ -10,12 +10,16 @@
  * notes what is expected. */
 rare_gloss rare_gloss_at(path *, const vertex *);
 
-/* In the gloss of flat surfaces, notes what is expected of a light that shines on the vertex by a sample of it;
- * `expectation` is how often the light is sampled on the average. */
+/* How it transmits them so to its other side. */
+rare_gloss rare_gloss_beyond(const path *, const vertex *);
+
+/* In the gloss of flat surfaces, or what they transmit, notes what is expected of a light that shines on the vertex by
+ * a sample of it; `expectation` is how often the light is sampled on the average. */
 void rare_gloss_expect(path *, const vertex *, const light_sample *, double expectation);
 
-/* Notes what the gloss reflects of a light there, which has been sampled, or met by the path's last reflection. */
-void rare_gloss_find(path *, const vertex *, double light_density, rgb found);
+/* Notes what the gloss reflects, or transmits, of a light there, which has been sampled, or met by the path's last
+ * reflection. */
+void rare_gloss_find(path *, const vertex *, vec3 direction, double light_density, rgb found);
 void rare_gloss_find_met(path *, const vertex *, const path_hit *, rgb found);
 
 #endif

@@ -85,8 +85,63 @@ static void what_panes_reflect_is_in_the_error(void **state) {
     graze_scene_destroy(scene);
 }
 
-/* Through a pane the sky is seen, which is exact; in the pane, a wall whose gloss few paths follow, and fewer of them to
- * the sky. What none of them has met is in the error. */
+/* What a translucent pane spreads a little of a lamp's light is a peak to the few paths that a diffuse reflection leads
+ * into it. */
+static void intervals_cover_what_shines_through(void **state) {
+    (void)state;
+    graze_scene *scene = load("void plastic g 0 0 5 .6 .6 .6 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 9\n"
+                              "void light l 0 0 3 10 10 10 l ring lamp 0 0 8 0 0 3 0 0 -1 0 .4\n"
+                              "void trans t 0 0 7 .8 .8 .8 0 .1 .9 .9 t ring pane 0 0 8 0 0 1 0 0 1 0 9\n");
+    graze_trace_settings s = graze_trace_defaults();
+    graze_ray ray = {.origin = {2, 0, 0.5}, .direction = {0, 0, -1}};
+    graze_answer truth, answer;
+    int covered = 0;
+    enum { TIMES = 1000 };
+    s.ambient_bounces = 1;
+    s.samples = 1u << 18;
+    graze_trace(scene, &s, &ray, TIMES, &truth, NULL);
+    s.samples = 0;
+    s.error = 0.1;
+    for (uint64_t k = 0; k < TIMES; k++) {
+        graze_trace(scene, &s, &ray, k, &answer, NULL);
+        double off = fabs(answer.value.g - truth.value.g);
+        covered += off <= 1.96 * hypot(answer.standard_error.g, truth.standard_error.g);
+    }
+    printf("# %.1f%% covered; truth %g +- %g\n", 100.0 * covered / TIMES, truth.value.g, truth.standard_error.g);
+    assert_true(covered >= 0.9 * TIMES);
+    graze_scene_destroy(scene);
+}
+
+/* In a clear ball's shadow, beside the spot that it gathers a lamp's light in, a little more of that arrives than any
+ * of an answer's paths finds: none of them finds anything. */
+static void what_clear_bodies_throw_is_in_the_error(void **state) {
+    (void)state;
+    graze_scene *scene = load("void light l 0 0 3 900 900 900 l sphere lamp 0 0 4 0 0 4 .1\n"
+                              "void plastic g 0 0 5 .5 .5 .5 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 9\n"
+                              "void dielectric d 0 0 5 1 1 1 1.5 0 d sphere ball 0 0 4 0 0 1 .8\n");
+    graze_trace_settings s = graze_trace_defaults();
+    int covered = 0;
+    enum { RAYS = 10, TIMES = 20 };
+    for (int i = 0; i < RAYS; i++) {
+        graze_ray ray = {.origin = {0.3 + 0.1 * i / RAYS, 0, 0.01}, .direction = {0, 0, -1}};
+        graze_answer truth, answer;
+        s.samples = 1u << 17;
+        graze_trace(scene, &s, &ray, TIMES, &truth, NULL);
+        s.samples = 0;
+        s.error = 0.1;
+        for (uint64_t k = 0; k < TIMES; k++) {
+            graze_trace(scene, &s, &ray, k, &answer, NULL);
+            double off = fabs(answer.value.g - truth.value.g);
+            covered += off <= 1.96 * hypot(answer.standard_error.g, truth.standard_error.g);
+        }
+    }
+    printf("# %.1f%% covered\n", 100.0 * covered / (RAYS * TIMES));
+    assert_true(covered >= 0.9 * RAYS * TIMES);
+    graze_scene_destroy(scene);
+}
+
+/* Through a pane the sky is seen, which is exact; in the pane, a wall whose gloss few paths follow, and fewer of them
+ * to the sky. What none of them has met is in the error. */
 static void what_is_not_met_is_in_the_error(void **state) {
     (void)state;
     graze_scene *scene = load("void glow g 0 0 4 10 10 10 0 g source sky 0 0 4 1 0 0 180\n"
@@ -133,6 +188,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_cover_a_caustic),
                                        cmocka_unit_test(what_panes_reflect_is_in_the_error),
                                        cmocka_unit_test(what_is_not_met_is_in_the_error),
+                                       cmocka_unit_test(intervals_cover_what_shines_through),
+                                       cmocka_unit_test(what_clear_bodies_throw_is_in_the_error),
                                        cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
