@@ -149,7 +149,8 @@ struct graze_scene {
     bool has_panes;          /* surfaces that light goes straight through */
     bool has_refraction;     /* dielectrics, prisms */
     struct scene_mist *mist; /* (scene/mist.h) null: none */
-    struct scene_cuts *cuts; /* by antimatter (scene/cuts.h); null: none */
+    struct scene_cuts *cuts; /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
+    bool mist_in_copies;
     bool has_secondary;      /* lights of the material illum */
     scene_light *lights;     /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
