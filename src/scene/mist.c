@@ -45,7 +45,10 @@ static graze_status find_lights(graze_scene *scene, mist_material *m, const rad_
         bool known = false;
         for (int k = 0; k < m->light_count; k++)
             known = known || m->lights[k] == light;
-        if (light < 0)
+        if (light < 0 && strchr(p->strings[i], '>'))
+            rad_primitive_warning(report, p, "what a mirror or a prism throws, as '%.64s', is not scattered",
+                                  p->strings[i]);
+        else if (light < 0)
             rad_primitive_warning(report, p, "there is no light '%.64s', which it could scatter", p->strings[i]);
         else if (known)
             rad_primitive_warning(report, p, "light '%.64s' is listed twice", p->strings[i]);

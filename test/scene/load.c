@@ -143,9 +143,10 @@ static void mist_is_checked(void **state) {
     assert_refused("void brightfunc p 2 Px . 0 0 p mist i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "mist i",
                    "patterns on mist");
     graze_scene *scene = scene_from_text("void light l 0 0 3 1 1 1 l sphere a 0 0 4 5 0 0 1 "
-                                         "void mist i 3 a b a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1");
+                                         "void mist i 4 a b a m>a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1");
     assert_non_null(scene);
     assert_non_null(strstr(messages, "mist i: there is no light 'b'"));
+    assert_non_null(strstr(messages, "mist i: what a mirror or a prism throws, as 'm>a', is not scattered"));
     assert_non_null(strstr(messages, "mist i: light 'a' is listed twice"));
     graze_scene_destroy(scene);
 }
