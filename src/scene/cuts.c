@@ -102,7 +102,8 @@ static graze_status note_cut(graze_scene *scene, int antimatter, const graze_rep
 
 /* The antimatters that cut a surface. */
 static uint64_t cuts_of(const graze_scene *scene, const scene_surface *s) {
-    return scene->cuts->cut_by[scene->primitives[s->primitive].modifier];
+    const int modifier = scene->primitives[s->primitive].modifier;
+    return modifier == RAD_VOID ? 0 : scene->cuts->cut_by[modifier];
 }
 
 /* Lights are not sampled in what is left of mirrors. */
