@@ -194,6 +194,9 @@ both ring disk 0 0 8 0 0 0 0 0 1 0 2.5
         if kind == "mixfunc":
             yield Case(f"{kind} with what bends, backs unseen", ROOM + bodies(text), around, "-ab 0 -st 1 -bv-", "-lr -48", repeat=4, own_repeat=2048,
                        samples=32768)
+    failing = "void plastic F 0 0 5 .7 .2 .1 0 0\nvoid metal B 0 0 5 .2 .4 .8 .7 0\nvoid mixfunc M 4 F B if(Px,.5,1/(Px-Px)) . 0 0\n"
+    yield Case("a mixture whose share fails", ROOM + failing + "M ring disk 0 0 8 0 0 0 0 0 1 0 2\n", aim([0.3, -1, 5], grid([-1.5, -1.5, 0], [1.5, 1.5, 0], 64, random)),
+               "-ab 0 -st 1 -w", repeat=4, own_repeat=2048)
     under = sensors([-2.2, -2.2, 0], [2.2, 2.2, 0], 36, [0, 0, 1], random)
     for kind, text in PANES.items():
         yield Case(f"lit through {kind}", FLOOR + LAMP + text + PANE, under, "-I -ab 0", repeat=32)
