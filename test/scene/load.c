@@ -45,8 +45,18 @@ static void surfaces_without_a_material_are_told(void **state) {
                   "there is no material behind it");
 }
 
+/* Words that Radiance passes over. */
+static void idle_words_are_told(void **state) {
+    (void)state;
+    assert_warned("void plastic2 m 7 1 0 0 . idle -rx 9 0 6 1 1 1 0 .1 .2 m sphere s 0 0 4 0 0 0 1", ":1:1: plastic2 m",
+                  "its string argument 5, 'idle', has no meaning");
+    assert_warned("void plastic2 m 7 1 Px 0 . idle -rx 9 0 6 1 1 1 0 .1 .2 m sphere s 0 0 4 0 0 0 1",
+                  ":1:1: plastic2 m", "its string argument 5, 'idle', has no meaning");
+}
+
 static void lights_are_checked(void **state) {
     (void)state;
+    assert_warned("void light l 1 x 0 3 1 1 1 l sphere s 0 0 4 0 0 0 1\n", ":1:1: light l", "\"x\", has no meaning");
     assert_refused("void light l 0 0 3 1 -1 1 l sphere s 0 0 4 0 0 0 1\n", "light l", "negative");
     assert_refused("void plastic p 0 0 5 1 1e11 1 0 0 p sphere s 0 0 4 0 0 0 1\n", "plastic p",
                    "real argument 2 is above 1e10");
@@ -58,7 +68,8 @@ static void lights_are_checked(void **state) {
 
 static void illums_are_checked(void **state) {
     (void)state;
-    assert_refused("void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "1 string at most");
+    assert_warned("void plastic a 0 0 5 1 1 1 0 0 void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n",
+                  ":1:32: illum i", "string argument 2, \"b\", has no meaning");
     assert_refused("void illum i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "no modifier 'a' before");
     assert_refused("void light l 0 0 3 1 1 1 void illum i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "illum i",
                    "seen as l, which shines");
@@ -335,6 +346,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unsupported_types_are_refused_by_name),
         cmocka_unit_test(surfaces_without_a_material_are_told),
+        cmocka_unit_test(idle_words_are_told),
         cmocka_unit_test(lights_are_checked),
         cmocka_unit_test(illums_are_checked),
         cmocka_unit_test(prisms_are_checked),
