@@ -35,6 +35,14 @@ static void assert_warned(const char *text, const char *where, const char *what)
     graze_scene_destroy(scene);
 }
 
+static void shapes_without_a_size_are_left_out(void **state) {
+    (void)state;
+    assert_warned("void plastic p 0 0 5 1 1 1 0 0 p sphere s 0 0 4 0 0 0 1e-7", ":1:32: sphere s",
+                  "zero radius; the surface is left out");
+    assert_warned("void plastic p 0 0 5 1 1 1 0 0 p bubble s 0 0 4 0 0 0 0", ":1:32: bubble s",
+                  "zero radius; the surface is left out");
+}
+
 static void surfaces_without_a_material_are_told(void **state) {
     (void)state;
     assert_warned("void sphere s 0 0 4 0 0 0 1\n", ":1:1: sphere s", "no material");
@@ -345,6 +353,7 @@ static void an_empty_scene_is_a_scene(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unsupported_types_are_refused_by_name),
+        cmocka_unit_test(shapes_without_a_size_are_left_out),
         cmocka_unit_test(surfaces_without_a_material_are_told),
         cmocka_unit_test(idle_words_are_told),
         cmocka_unit_test(lights_are_checked),
