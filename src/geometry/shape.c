@@ -138,14 +138,15 @@ static graze_status make_polygon(shape *s, bool *degenerate, const rad_primitive
     return GRAZE_OK;
 }
 
-static graze_status make_sphere(shape *s, const rad_primitive *p, const graze_report *report) {
+static graze_status make_sphere(shape *s, bool *degenerate, const rad_primitive *p, const graze_report *report) {
     graze_status status = check_reals(p, 4, report);
     if (status)
         return status;
     double radius = p->reals[3];
-    if (fabs(radius) <= TINY_RADIUS)
-        return rad_primitive_error(report, p, "zero radius");
-    if (radius < 0)
+    *degenerate = fabs(radius) <= TINY_RADIUS;
+    if (*degenerate)
+        rad_primitive_warning(report, p, "zero radius; the surface is left out");
+    else if (radius < 0)
         rad_primitive_warning(report, p, "negative radius turns the surface inside out");
     s->kind = SHAPE_SPHERE;
     s->inward = (p->type == RAD_BUBBLE) != (radius < 0);
@@ -223,7 +224,7 @@ graze_status shape_from_primitive(shape *s, bool *degenerate, const rad_primitiv
         return make_polygon(s, degenerate, p, memory, report);
     case RAD_SPHERE:
     case RAD_BUBBLE:
-        return make_sphere(s, p, report);
+        return make_sphere(s, degenerate, p, report);
     case RAD_CONE:
     case RAD_CUP:
     case RAD_CYLINDER:

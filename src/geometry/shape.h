@@ -58,9 +58,9 @@ typedef struct shape {
 
 /* Makes the shape of a surface primitive (not source, mesh or instance). Memory comes from the arena; vertices of
  * polygons stay where they are, among the primitive's reals. Checks arguments
- * as Radiance does: polygons without area, cones without axis and cones or rings of illegal radii are warned about and
- * give *degenerate = true (the surface then does not exist); a sphere of zero radius is an error; negative radii are
- * warned about and turn the normal; non-planar polygons are warned about. */
+ * as Radiance does: polygons without area, cones without axis, spheres of zero radius and cones or rings of illegal
+ * radii are warned about and give *degenerate = true (the surface then does not exist); negative radii are warned about
+ * and turn the normal; non-planar polygons are warned about. */
 graze_status shape_from_primitive(shape *, bool *degenerate, const rad_primitive *, arena *, const graze_report *);
 
 /* The triangle between three vertices, which it keeps; where these have no area, no ray meets it. */

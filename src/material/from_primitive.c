@@ -10,6 +10,25 @@
 /* Squares of indices, and of their ratios, stay far from overflow. */
 #define LARGEST_INDEX 100.0
 
+/* Words that begin a transform; a number, as it may be the argument of a function, does not. */
+static bool begins_transform(const char *word) {
+    if (word[0] != '-' || !word[1])
+        return false;
+    if (word[1] == 't' || word[1] == 's' || word[1] == 'i')
+        return !word[2];
+    return (word[1] == 'r' || word[1] == 'm') && word[2] >= 'x' && word[2] <= 'z' && !word[3];
+}
+
+uint32_t material_find_transform(const rad_primitive *p, uint32_t rest, const graze_report *report) {
+    uint32_t first = rest;
+    while (first < p->string_count && !begins_transform(p->strings[first]))
+        first++;
+    if (first > rest)
+        rad_primitive_warning(report, p, "its string argument %u, '%.64s', has no meaning", (unsigned)rest + 1,
+                              p->strings[rest]);
+    return first;
+}
+
 /* `ux uy uz funcfile`, before the transform. */
 #define ORIENTATION_STRINGS 4
 
@@ -67,18 +86,12 @@ static graze_status take_transmission(graze_material *m, const rad_primitive *p,
     return GRAZE_OK;
 }
 
-static void warn_of_strings(const rad_primitive *p, const graze_report *report) {
-    if (p->string_count > 0)
-        rad_primitive_warning(report, p, "its string arguments have no meaning");
-}
-
 static graze_status read_isotropic(graze_material *m, const rad_primitive *p, graze_material_kind kind,
                                    const graze_report *report) {
     bool transmits = kind == GRAZE_TRANS;
     graze_status status = check_reals(p, transmits ? 7 : 5, 1, report);
     if (status != GRAZE_OK)
         return status;
-    warn_of_strings(p, report);
     warn_if_unphysical(p, report);
     take_reals(m, p, kind, 1);
     return transmits ? take_transmission(m, p, report) : GRAZE_OK;
@@ -96,8 +109,9 @@ static graze_status read_orientation(graze_material *m, const rad_primitive *p, 
     rad_transform transform;
     rad_primitive_name name = {""};
     const place where = rad_primitive_place(p, &name);
-    graze_status status = rad_transform_parse(&transform, p->strings + ORIENTATION_STRINGS,
-                                              (int)(p->string_count - ORIENTATION_STRINGS), &where, report);
+    const uint32_t first = material_find_transform(p, ORIENTATION_STRINGS, report);
+    graze_status status =
+        rad_transform_parse(&transform, p->strings + first, (int)(p->string_count - first), &where, report);
     if (status != GRAZE_OK)
         return status;
     m->orientation = rad_transform_vector(&transform, vec3_make(u[0], u[1], u[2]));
@@ -146,7 +160,6 @@ static graze_status read_glass(graze_material *m, const rad_primitive *p, const 
     double index = p->real_count == 4 ? p->reals[3] : GLASS_INDEX;
     if (!(index >= 1 && index <= LARGEST_INDEX))
         return rad_primitive_error(report, p, "the index of refraction must be in 1 .. 100");
-    warn_of_strings(p, report);
     *m = (graze_material){.kind = GRAZE_GLASS, .color = take_transmissivity(p, 0, report), .refraction = index};
     return GRAZE_OK;
 }
@@ -170,7 +183,6 @@ static graze_status read_dielectric(graze_material *m, const rad_primitive *p, c
     status = check_index(p, index, report);
     if (status != GRAZE_OK)
         return status;
-    warn_of_strings(p, report);
     *m = (graze_material){.kind = GRAZE_DIELECTRIC,
                           .refraction = index,
                           .inside = take_transmissivity(p, 0, report),
@@ -188,7 +200,6 @@ static graze_status read_interface(graze_material *m, const rad_primitive *p, co
         status = check_index(p, p->reals[7], report);
     if (status != GRAZE_OK)
         return status;
-    warn_of_strings(p, report);
     *m = (graze_material){.kind = GRAZE_DIELECTRIC,
                           .refraction = p->reals[3] / p->reals[7],
                           .inside = take_transmissivity(p, 0, report),

@@ -16,4 +16,8 @@ bool material_is_reflector(rad_type);
  * (material/orientation.h) is left null. */
 graze_status material_from_primitive(graze_material *, const rad_primitive *, const graze_report *);
 
+/* Where the transform begins among the strings of a primitive, from number `rest` on; words before it are told to have
+ * no meaning. */
+uint32_t material_find_transform(const rad_primitive *, uint32_t rest, const graze_report *);
+
 #endif

@@ -4,23 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Words that begin a transform; a number, as it may be the argument of a function, does not. */
-static bool begins_transform(const char *word) {
-    if (word[0] != '-' || !word[1])
-        return false;
-    if (word[1] == 't' || word[1] == 's' || word[1] == 'i')
-        return !word[2];
-    return (word[1] == 'r' || word[1] == 'm') && word[2] >= 'x' && word[2] <= 'z' && !word[3];
-}
+#include "material/from_primitive.h"
 
 static graze_status read_transform(material_owner *o, uint32_t rest) {
     const rad_primitive *p = o->primitive;
-    uint32_t first = rest;
-    while (first < p->string_count && !begins_transform(p->strings[first]))
-        first++;
-    if (first > rest)
-        rad_primitive_warning(o->report, p, "its string argument %u, '%.64s', has no meaning", (unsigned)rest + 1,
-                              p->strings[rest]);
+    const uint32_t first = material_find_transform(p, rest, o->report);
     if (first == p->string_count)
         return GRAZE_OK;
     o->moved = true;

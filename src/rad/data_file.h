@@ -1,4 +1,4 @@
-/* Radiance's data files: numbers over a grid of up to five dimensions, and what is between them. */
+/* Radiance's data files: numbers over a grid of up to six dimensions, and what is between them. */
 #ifndef RAD_DATA_FILE_H
 #define RAD_DATA_FILE_H
 
@@ -7,7 +7,7 @@
 #include "base/arena.h"
 #include "base/report.h"
 
-enum { RAD_DATA_DIMENSIONS = 5 };
+enum { RAD_DATA_DIMENSIONS = 6 };
 
 typedef struct rad_data_axis {
     double begin, length; /* of the evenly spaced places; length < 0 where they go down */

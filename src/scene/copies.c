@@ -41,9 +41,7 @@ static scene_surface make_surface(scene_builder *b, int primitive, int material,
     graze_scene *scene = b->scene;
     const int shining = scene_material_shining(scene, material);
     scene->has_mirrors = scene->has_mirrors || scene_material_shows_lights(&scene->materials[material]);
-    if (scene_material_is_volume(&scene->materials[material]))
-        scene_fail(
-            b, rad_primitive_error(b->report, user, "mist or antimatter in an instance or a mesh is not supported"));
+    scene->mist_in_copies = scene->mist_in_copies || scene->materials[material].mist >= 0;
     return (scene_surface){
         .primitive = primitive,
         .material = material,

@@ -8,16 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/bounds.h"
+#include "scene/surface.h"
+
 /* As many materials of antimatter may a scene have: a bit for each. */
 enum { MOST = 64 };
 
 struct scene_cuts {
-    int count;           /* of antimatters */
-    int materials[MOST]; /* of each its material */
-    uint64_t *cut_by;    /* by surface: the antimatters that cut it */
-    int16_t *antimatter; /* by surface: which one it bounds, or -1 */
-    shape *bounds;       /* their surfaces, those of each behind one another */
-    geometry *of[MOST];  /* of the bounds of each: those of two may coincide */
+    int count;             /* of antimatters */
+    int materials[MOST];   /* of each its material */
+    uint64_t *cut_by;      /* by modifier: the antimatters that cut its surfaces */
+    shape *bounds;         /* the scene's own surfaces of theirs, those of each behind one another */
+    scene_bounds of[MOST]; /* the bounds of each: those of two may coincide */
 };
 
 static uint64_t bit(int antimatter) {
@@ -32,26 +34,76 @@ static int listed(const graze_scene *scene, const rad_primitive *p, const char *
     return modifier;
 }
 
+/* What is looked for among surfaces: those of a modifier, or of a material (the other is RAD_VOID). */
+typedef struct wanted {
+    int modifier, material;
+} wanted;
+
+static bool is_wanted(const graze_scene *scene, const scene_surface *s, wanted w) {
+    return s->primitive >= 0 && ((w.modifier != RAD_VOID && scene->primitives[s->primitive].modifier == w.modifier) ||
+                                 (w.material != RAD_VOID && s->material == w.material));
+}
+
+/* Light may pass what is wanted. False: some of it shines. */
+static bool let_pass(const graze_scene *scene, const scene_surface *surfaces, shape *shapes, size_t count, wanted w) {
+    bool dark = true;
+    for (size_t i = 0; i < count; i++) {
+        if (!is_wanted(scene, &surfaces[i], w))
+            continue;
+        dark = dark && surfaces[i].light < 0;
+        shapes[i].passes = true;
+    }
+    return dark;
+}
+
+/* The same of copies by their own modifiers: then light may pass all that is copied. */
+static bool let_pass_copies(graze_scene *scene, const scene_part *part, wanted w) {
+    bool dark = true;
+    for (size_t i = 0; i < part->copy_count; i++) {
+        const scene_copy *copy = &part->copies[i];
+        if (!copy->replaces || !is_wanted(scene, &copy->surface, w))
+            continue;
+        dark = dark && copy->surface.light < 0;
+        for (size_t k = 1; k < scene->part_count; k++)
+            for (size_t n = 0; n < scene->parts[k].surface_count; n++)
+                scene->parts[k].shapes[n].passes = true;
+    }
+    return dark;
+}
+
+static bool let_all_pass(graze_scene *scene, wanted w) {
+    bool dark = let_pass(scene, scene->surfaces, scene->shapes, scene->surface_count, w);
+    for (size_t i = 0; i < scene->part_count; i++) {
+        scene_part *part = &scene->parts[i];
+        if (i > 0)
+            dark = let_pass(scene, part->surfaces, part->shapes, part->surface_count, w) && dark;
+        dark = let_pass_copies(scene, part, w) && dark;
+    }
+    return dark;
+}
+
 /* Notes what one antimatter cuts. */
 static graze_status note_cut(graze_scene *scene, int antimatter, const graze_report *report) {
     scene_cuts *cuts = scene->cuts;
     const rad_primitive *p = &scene->primitives[scene->materials[cuts->materials[antimatter]].primitive];
     for (uint32_t i = 0; i < p->string_count; i++) {
         int modifier = listed(scene, p, p->strings[i], report);
-        if (modifier != RAD_VOID &&
-            (scene->primitives[modifier].type == RAD_MIST || scene->primitives[modifier].type == RAD_ANTIMATTER))
+        if (modifier == RAD_VOID)
+            continue;
+        if (scene->primitives[modifier].type == RAD_MIST || scene->primitives[modifier].type == RAD_ANTIMATTER)
             return rad_primitive_error(report, p, "it names %.64s, which is mist or antimatter: that is not supported",
                                        p->strings[i]);
-        for (size_t k = 0; k < scene->surface_count && modifier != RAD_VOID; k++) {
-            if (scene->primitives[scene->surfaces[k].primitive].modifier != modifier)
-                continue;
-            if (scene->surfaces[k].light >= 0)
-                return rad_primitive_error(report, p, "it cuts %s, which shines: that is not supported", p->strings[i]);
-            cuts->cut_by[k] |= bit(antimatter);
-            scene->shapes[k].passes = true;
-        }
+        if (!let_all_pass(scene, (wanted){modifier, RAD_VOID}))
+            return rad_primitive_error(report, p, "it cuts %s, which shines: that is not supported", p->strings[i]);
+        cuts->cut_by[modifier] |= bit(antimatter);
     }
     return GRAZE_OK;
+}
+
+/* The antimatters that cut a surface. */
+static uint64_t cuts_of(const graze_scene *scene, const scene_surface *s) {
+    const int modifier = scene->primitives[s->primitive].modifier;
+    return modifier == RAD_VOID ? 0 : scene->cuts->cut_by[modifier];
 }
 
 /* Lights are not sampled in what is left of mirrors. */
@@ -59,7 +111,7 @@ static void leave_mirrors_out(graze_scene *scene) {
     size_t kept = 0;
     for (size_t i = 0; i < scene->mirror_count; i++) {
         int mirror = scene->mirrors[i];
-        if (scene->cuts->cut_by[mirror])
+        if (cuts_of(scene, &scene->surfaces[mirror]))
             scene->surfaces[mirror].mirrors = false;
         else
             scene->mirrors[kept++] = mirror;
@@ -67,20 +119,17 @@ static void leave_mirrors_out(graze_scene *scene) {
     scene->mirror_count = kept;
 }
 
-/* Builds the bounds of one antimatter; gives how many there are. */
+/* Builds the bounds of one antimatter; gives how many of them are the scene's own. */
 static graze_status build_bounds(graze_scene *scene, int antimatter, shape *bounds, size_t *count, int threads,
                                  const graze_report *report) {
     scene_cuts *cuts = scene->cuts;
+    const int material = cuts->materials[antimatter];
     *count = 0;
-    for (size_t k = 0; k < scene->surface_count; k++) {
-        if (scene->surfaces[k].material != cuts->materials[antimatter])
-            continue;
-        scene->shapes[k].passes = true;
-        cuts->antimatter[k] = (int16_t)antimatter;
-        bounds[(*count)++] = scene->shapes[k];
-    }
-    const geometry_group group = {.shapes = bounds, .shape_count = *count};
-    return geometry_build(&cuts->of[antimatter], &group, 1, threads, report);
+    for (size_t k = 0; k < scene->surface_count; k++)
+        if (scene->surfaces[k].material == material)
+            bounds[(*count)++] = scene->shapes[k];
+    (void)let_all_pass(scene, (wanted){RAD_VOID, material});
+    return scene_bounds_build(&cuts->of[antimatter], scene, material, bounds, *count, threads, report);
 }
 
 graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report *report) {
@@ -93,20 +142,18 @@ graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report
                                        "a scene may have no more than %d materials of antimatter", MOST);
         materials[count++] = (int)i;
     }
-    if (count == 0)
+    if (count == 0 && !scene->mist_in_copies)
         return GRAZE_OK;
     scene_cuts *cuts = scene->cuts = calloc(1, sizeof *cuts);
     if (!cuts)
         return report_out_of_memory(report);
     cuts->count = count;
     memcpy(cuts->materials, materials, sizeof materials[0] * (size_t)count);
-    cuts->cut_by = calloc(scene->surface_count + 1, sizeof *cuts->cut_by);
-    cuts->antimatter = calloc(scene->surface_count + 1, sizeof *cuts->antimatter);
+    cuts->cut_by = calloc(scene->primitive_count + 1, sizeof *cuts->cut_by);
     cuts->bounds = calloc(scene->surface_count + 1, sizeof *cuts->bounds);
-    if (!cuts->cut_by || !cuts->antimatter || !cuts->bounds)
+    if (!cuts->cut_by || !cuts->bounds)
         return report_out_of_memory(report);
     scene->has_panes = true;
-    memset(cuts->antimatter, -1, scene->surface_count * sizeof *cuts->antimatter);
     graze_status status = GRAZE_OK;
     shape *bounds = cuts->bounds;
     size_t built;
@@ -123,9 +170,8 @@ void scene_cuts_destroy(scene_cuts *cuts) {
     if (!cuts)
         return;
     for (int i = 0; i < cuts->count; i++)
-        geometry_destroy(cuts->of[i]);
+        scene_bounds_destroy(&cuts->of[i]);
     free(cuts->cut_by);
-    free(cuts->antimatter);
     free(cuts->bounds);
     free(cuts);
 }
@@ -157,9 +203,15 @@ static bool is_same_crossing(const scene_cuts_crossing *known, int antimatter, c
 /* What one counts on the way back. */
 typedef struct crossings {
     int antimatter;
-    const uint64_t *cut_by; /* only those surfaces count that it cuts; null: all do */
-    int64_t own;            /* so many have numbers in cut_by */
+    const graze_scene *scene; /* whose surfaces count that it cuts; null: all do */
 } crossings;
+
+static uint64_t cuts_of_surface(const graze_scene *scene, int64_t surface) {
+    if (!scene)
+        return 0;
+    const scene_surface s = scene_surface_at(scene, surface);
+    return cuts_of(scene, &s);
+}
 
 /* Counts from the ray's origin back, up to what is known already, and keeps that for points further on. */
 static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const crossings *counted,
@@ -167,8 +219,8 @@ static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const
     scene_cuts_crossing found = {.antimatter = counted->antimatter, .surface = -1};
     geometry_hit hit;
     while (next_hit(g, &ray, &hit)) {
-        if (counted->cut_by &&
-            (hit.surface >= counted->own || !(counted->cut_by[hit.surface] & bit(counted->antimatter))))
+        const uint64_t cut_by = cuts_of_surface(counted->scene, hit.surface);
+        if (counted->scene && !(cut_by & bit(counted->antimatter)))
             continue;
         const bool entered = vec3_dot(hit.normal, ray.direction) > 0;
         const bool is_known = is_same_crossing(known, counted->antimatter, &hit, entered);
@@ -180,9 +232,7 @@ static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const
         }
         if (most > found.most) {
             found.most = most;
-            found.others = is_known          ? known->others
-                           : counted->cut_by ? counted->cut_by[hit.surface] & ~bit(counted->antimatter)
-                                             : 0;
+            found.others = is_known ? known->others : cut_by & ~bit(counted->antimatter);
         }
         found.balance += is_known ? known->balance : entered ? 1 : -1;
         if (is_known)
@@ -196,9 +246,9 @@ static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const
 static bool is_inside(const scene_cuts *cuts, scene_cuts_walk *walk, uint64_t asked, vec3 point, vec3 direction) {
     const geometry_ray back = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
     for (int i = 0; i < cuts->count; i++)
-        if ((asked & bit(i)) &&
-            count_back(cuts->of[i], back, &(crossings){.antimatter = i}, &walk->antimatters[i % SCENE_CUTS_REMEMBERED])
-                    .balance > 0)
+        if ((asked & bit(i)) && count_back(cuts->of[i].geometry, back, &(crossings){.antimatter = i},
+                                           &walk->antimatters[i % SCENE_CUTS_REMEMBERED])
+                                        .balance > 0)
             return true;
     return false;
 }
@@ -209,22 +259,30 @@ static bool is_face(const graze_scene *scene, scene_cuts_walk *walk, int antimat
                     vec3 direction) {
     const scene_cuts *cuts = scene->cuts;
     const geometry_ray back = {.origin = point, .direction = direction, .far = GEOMETRY_FAR, .from = surface};
-    const crossings bodies = {antimatter, cuts->cut_by, (int64_t)scene->surface_count};
-    const scene_cuts_crossing found =
-        count_back(scene->geometry, back, &bodies, &walk->bodies[antimatter % SCENE_CUTS_REMEMBERED]);
+    const scene_cuts_crossing found = count_back(scene->geometry, back, &(crossings){antimatter, scene},
+                                                 &walk->bodies[antimatter % SCENE_CUTS_REMEMBERED]);
     return found.balance > 0 && !is_inside(cuts, walk, found.others, point, direction);
+}
+
+/* Which antimatter is of this material; there is one. */
+static int antimatter_of(const scene_cuts *cuts, int material) {
+    int i = 0;
+    while (cuts->materials[i] != material)
+        i++;
+    return i;
 }
 
 scene_presence scene_cuts_at(const graze_scene *scene, scene_cuts_walk *walk, int64_t surface, vec3 point,
                              vec3 direction) {
     const scene_cuts *cuts = scene->cuts;
-    if (surface >= (int64_t)scene->surface_count)
-        return SCENE_THERE;
-    begin(walk);
-    int antimatter = cuts->antimatter[surface];
+    const scene_surface s = scene_surface_at(scene, surface);
+    const scene_material *m = &scene->materials[s.material];
     const vec3 back = vec3_negate(direction);
-    if (antimatter < 0)
-        return is_inside(cuts, walk, cuts->cut_by[surface], point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
-    bool closes = scene->materials[cuts->materials[antimatter]].alternate >= 0;
-    return closes && is_face(scene, walk, antimatter, surface, point, back) ? SCENE_CUT_FACE : SCENE_CUT_AWAY;
+    if (m->mist >= 0)
+        return SCENE_CUT_AWAY;
+    begin(walk);
+    if (!m->cuts)
+        return is_inside(cuts, walk, cuts_of(scene, &s), point, back) ? SCENE_CUT_AWAY : SCENE_THERE;
+    bool face = m->alternate >= 0 && is_face(scene, walk, antimatter_of(cuts, s.material), surface, point, back);
+    return face ? SCENE_CUT_FACE : SCENE_CUT_AWAY;
 }

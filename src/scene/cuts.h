@@ -1,4 +1,5 @@
-/* What antimatter cuts out of other surfaces of the scene, and the surfaces that it closes them by. */
+/* What antimatter cuts out of other surfaces, and the surfaces that it closes them by; and those of mist in copies,
+ * which are not there. */
 #ifndef SCENE_CUTS_H
 #define SCENE_CUTS_H
 
@@ -35,7 +36,7 @@ typedef struct scene_cuts_walk {
     scene_cuts_crossing bodies[SCENE_CUTS_REMEMBERED];      /* those that they cut */
 } scene_cuts_walk;
 
-/* Finds out what is cut, where there is antimatter: sets scene->cuts. Refuses to cut lights. */
+/* Finds out what is cut, where there is antimatter or mist in copies: sets scene->cuts. Refuses to cut lights. */
 graze_status scene_cuts_make(graze_scene *, int threads, const graze_report *);
 void scene_cuts_destroy(scene_cuts *); /* null is let pass */
 

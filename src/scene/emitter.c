@@ -32,10 +32,8 @@ graze_status emitter_to_light(scene_light *light, const rad_primitive *material,
         if (shapes[i].type == material->type)
             expected = shapes[i].reals;
     light->secondary = material->type == RAD_ILLUM;
-    if (material->real_count != expected || material->string_count > light->secondary)
-        return rad_primitive_error(report, material, "expected %s and %u reals, found %u and %u",
-                                   light->secondary ? "1 string at most" : "0 strings", expected,
-                                   material->string_count, material->real_count);
+    if (material->real_count != expected)
+        return rad_primitive_error(report, material, "expected %u reals, found %u", expected, material->real_count);
     const double *a = material->reals;
     if (!(a[0] >= 0 && a[1] >= 0 && a[2] >= 0))
         return rad_primitive_error(report, material, "radiance must not be negative");

@@ -84,7 +84,7 @@ static graze_status find_chain(scene_builder *b, int modifier, material_chain *c
         return status;
     status = material_chain_find(chain, scene->modifiers, modifier);
     if (!status && chain->material == RAD_VOID)
-        return rad_primitive_error(b->report, p, "there is no material behind it");
+        rad_primitive_warning(b->report, p, "there is no material behind it: light passes what it modifies");
     return status;
 }
 
@@ -235,6 +235,8 @@ static int add_material(scene_builder *b, int modifier) {
     material_chain chain;
     scene_material made = {.kind = SCENE_REFLECTOR, .alternate = -1, .mist = -1};
     graze_status status = find_chain(b, modifier, &chain);
+    if (!status && chain.material == RAD_VOID)
+        return scene_nothing(b);
     if (!status) {
         made.primitive = chain.material;
         made.modifiers = chain.modifiers;
@@ -258,10 +260,16 @@ int scene_material_of_modifier(scene_builder *b, int modifier) {
     return b->material_of[modifier];
 }
 
+/* Surfaces without a material are there, and let light pass, as in Radiance. */
 int scene_material_of_surface(scene_builder *b, const rad_primitive *surface) {
+    int material;
     if (surface->modifier == RAD_VOID) {
-        scene_fail(b, rad_primitive_error(b->report, surface, "this surface has no material: its modifier is void"));
-        return MATERIAL_REFUSED;
+        rad_primitive_warning(b->report, surface,
+                              "this surface has no material, its modifier is void: light passes it");
+        material = scene_nothing(b);
+    } else {
+        material = scene_material_of_modifier(b, surface->modifier);
     }
-    return scene_material_of_modifier(b, surface->modifier);
+    b->scene->has_panes = b->scene->has_panes || (material >= 0 && material == b->nothing);
+    return material;
 }

@@ -45,7 +45,10 @@ static graze_status find_lights(graze_scene *scene, mist_material *m, const rad_
         bool known = false;
         for (int k = 0; k < m->light_count; k++)
             known = known || m->lights[k] == light;
-        if (light < 0)
+        if (light < 0 && strchr(p->strings[i], '>'))
+            rad_primitive_warning(report, p, "what a mirror or a prism throws, as '%.64s', is not scattered",
+                                  p->strings[i]);
+        else if (light < 0)
             rad_primitive_warning(report, p, "there is no light '%.64s', which it could scatter", p->strings[i]);
         else if (known)
             rad_primitive_warning(report, p, "light '%.64s' is listed twice", p->strings[i]);
@@ -62,10 +65,9 @@ graze_status scene_mist_make(graze_scene *scene, int threads, const graze_report
         if (scene->materials[i].mist < 0)
             continue;
         mist_material *m = &mist->of[scene->materials[i].mist];
-        const geometry_group bounds = {.shapes = m->bounds, .shape_count = m->bound_count};
         status = find_lights(scene, m, &scene->primitives[scene->materials[i].primitive], report);
         if (status == GRAZE_OK)
-            status = geometry_build(&m->geometry, &bounds, 1, threads, report);
+            status = scene_bounds_build(&m->around, scene, (int)i, m->bounds, m->bound_count, threads, report);
     }
     return status;
 }
@@ -74,7 +76,7 @@ void scene_mist_destroy(scene_mist *mist) {
     if (!mist)
         return;
     for (int i = 0; i < mist->count; i++) {
-        geometry_destroy(mist->of[i].geometry);
+        scene_bounds_destroy(&mist->of[i].around);
         free(mist->of[i].bounds);
         free(mist->of[i].lights);
     }
@@ -100,7 +102,7 @@ void mist_walk_begin(mist_walk *w, const graze_scene *scene, const mist_medium *
     w->at = 0;
     w->distance = distance;
     for (int i = 0; w->mist && i < w->mist->count; i++) {
-        const geometry *g = w->mist->of[i].geometry;
+        const geometry *g = w->mist->of[i].around.geometry;
         const geometry_ray start = {.origin = origin, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
         geometry_ray ahead = start;
         int change;
@@ -143,7 +145,7 @@ static bool cross_boundary(mist_walk *w, double *at, bool *changes) {
         return false;
     bool before = w->of[first].balance > 0;
     w->of[first].balance += w->of[first].change;
-    w->of[first].next += step(w->mist->of[first].geometry, &w->of[first].ray, &w->of[first].change);
+    w->of[first].next += step(w->mist->of[first].around.geometry, &w->of[first].ray, &w->of[first].change);
     *changes = before != (w->of[first].balance > 0);
     return true;
 }

@@ -2,7 +2,7 @@
 #ifndef SCENE_MIST_H
 #define SCENE_MIST_H
 
-#include "scene/scene.h"
+#include "scene/bounds.h"
 
 /* As many materials of mist may a scene have: a bit for each. */
 enum { MIST_MOST = 32 };
@@ -29,7 +29,7 @@ typedef struct mist_material {
     int light_count;
     shape *bounds;
     size_t bound_count;
-    geometry *geometry; /* of the bounds */
+    scene_bounds around; /* built of the bounds, and of those in copies */
 } mist_material;
 
 typedef struct scene_mist {

@@ -133,7 +133,6 @@ int appearance_draw_of(const path *p, int count) {
     return (int)(draw_number(p) * count);
 }
 
-/* What a mixture is where its share cannot be computed, as in Radiance. */
 static const scene_material black = {.kind = SCENE_REFLECTOR, .reflector = {.kind = GRAZE_PLASTIC}};
 
 static void prepare(const path *, const path_hit *, const encounter *, const scene_material *, material_effect,
@@ -170,6 +169,15 @@ static void perforate(const path *p, const path_hit *hit, double share, vertex *
         v->transmitted_function = rgb_scale(share, v->transmitted_function);
     }
     vertex_set_passage(p, v);
+    /* Light samples do not pass surfaces that are opaque but for hidden backs, and where functions fail. */
+    v->refracts = !scene_surface_passes(p->context->scene, hit->surface);
+}
+
+/* Lets all light straight through. */
+static void prepare_nothing(const path *p, const path_hit *hit, const encounter *of, const material_effect *e,
+                            vertex *v) {
+    prepare_reflector(p, hit, of, &black, e, v);
+    perforate(p, hit, 0, v);
 }
 
 /* A material, of which there is this share, and void. */
@@ -184,12 +192,9 @@ static void prepare_with_nothing(const path *p, const path_hit *hit, const encou
         share = 0;
     }
     if (share == 0)
-        prepare_reflector(p, hit, of, &black, &e, v);
-    if (share == 1)
-        return;
-    perforate(p, hit, share, v);
-    /* Light samples do not pass opaque surfaces whose backs are hidden. */
-    v->refracts = !scene_surface_passes(p->context->scene, hit->surface);
+        prepare_nothing(p, hit, of, &e, v);
+    else if (share < 1)
+        perforate(p, hit, share, v);
 }
 
 /* Whether this part of a mixture is not there where the ray meets it: void, or a hidden back. */
@@ -203,7 +208,7 @@ static void prepare_mixture(const path *p, const path_hit *hit, const encounter 
     const scene_material *materials = p->context->scene->materials;
     double share;
     if (!material_mixture_share(m->share, &of->ray, &share)) {
-        prepare_reflector(p, hit, of, &black, &e, v);
+        prepare_nothing(p, hit, of, &e, v);
         return;
     }
     bool first = is_absent(p->context, hit, &materials[m->back]);
@@ -242,8 +247,7 @@ static void prepare(const path *p, const path_hit *hit, const encounter *of, con
         appearance_prepare_prism(p, hit, of, m->prism, v);
         break;
     case SCENE_NOTHING:
-        prepare_reflector(p, hit, of, &black, &e, v);
-        perforate(p, hit, 0, v);
+        prepare_nothing(p, hit, of, &e, v);
         break;
     case SCENE_EMITTER:
         prepare_reflector(p, hit, of, &black, &e, v);
@@ -311,7 +315,7 @@ static rgb straight_through(const path_context *context, const scene_material *m
         return through_reflector(m, hit, of, &e);
     case SCENE_MIXTURE:
         if (!material_mixture_share(m->share, &of->ray, &share))
-            break;
+            return rgb_gray(1);
         return blend(share, straight_through(context, &materials[m->fore], hit, of, e),
                      straight_through(context, &materials[m->back], hit, of, e));
     case SCENE_FUNCTION:

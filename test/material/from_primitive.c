@@ -185,14 +185,6 @@ static void unphysical_values_are_taken_with_a_warning(void **state) {
     }
 }
 
-static void idle_strings_of_isotropic_types_are_warned_of(void **state) {
-    (void)state;
-    graze_material m;
-    log_of_report log;
-    assert_int_equal(convert(&m, &log, RAD_PLASTIC, 4, plain, 5, iso), GRAZE_OK);
-    assert_int_equal(log.warnings, 1);
-}
-
 static void other_materials_are_not_supported_yet(void **state) {
     (void)state;
     assert_refused(RAD_MIST, 0, NULL, 0, NULL, "mist is not supported yet");
@@ -286,7 +278,6 @@ int main(void) {
         cmocka_unit_test(negative_arguments_are_refused),
         cmocka_unit_test(roughness_out_of_its_range_is_refused),
         cmocka_unit_test(unphysical_values_are_taken_with_a_warning),
-        cmocka_unit_test(idle_strings_of_isotropic_types_are_warned_of),
         cmocka_unit_test(transparent_types_are_read),
         cmocka_unit_test(wrong_transparent_types_are_refused),
         cmocka_unit_test(wrong_ashik2_and_mirror_are_refused),

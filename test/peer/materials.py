@@ -194,6 +194,14 @@ both ring disk 0 0 8 0 0 0 0 0 1 0 2.5
         if kind == "mixfunc":
             yield Case(f"{kind} with what bends, backs unseen", ROOM + bodies(text), around, "-ab 0 -st 1 -bv-", "-lr -48", repeat=4, own_repeat=2048,
                        samples=32768)
+    # As many dimensions as there may be.
+    sixfold = " ".join(["6"] + 6 * ["0 1 2"] + [str(37 * i % 64 / 64) for i in range(64)])
+    places = "Px Py Px+Py Px*Py .5-Px .3"
+    yield Case("data of six dimensions", ROOM + f"!echo {sixfold} >FOLDER/six.dat; echo void alias six red\nvoid brightdata P 9 noop FOLDER/six.dat . {places} 0 0\n"
+               "P glow M 0 0 4 1 1 1 0\nM polygon square 0 0 12 0 0 0 .9 0 0 .9 .9 0 0 .9 0\n", aim([0.3, -1, 5], grid([0, 0, 0], [.9, .9, 0], 64, random)), "-ab 0", repeat=2)
+    failing = "void plastic F 0 0 5 .7 .2 .1 0 0\nvoid metal B 0 0 5 .2 .4 .8 .7 0\nvoid mixfunc M 4 F B if(Px,.5,1/(Px-Px)) . 0 0\n"
+    yield Case("a mixture whose share fails", ROOM + failing + "M ring disk 0 0 8 0 0 0 0 0 1 0 2\n", aim([0.3, -1, 5], grid([-1.5, -1.5, 0], [1.5, 1.5, 0], 64, random)),
+               "-ab 0 -st 1 -w", repeat=4, own_repeat=2048)
     under = sensors([-2.2, -2.2, 0], [2.2, 2.2, 0], 36, [0, 0, 1], random)
     for kind, text in PANES.items():
         yield Case(f"lit through {kind}", FLOOR + LAMP + text + PANE, under, "-I -ab 0", repeat=32)

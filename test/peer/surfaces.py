@@ -159,6 +159,28 @@ def octrees(random):
                aim([.4, -3, 2.5], random.uniform([0, 0, 0], [3, 1, 1], (60, 3))), "-ab 0 -st 1", repeat=16, octree="-f")
 
 
+def instance(modifier, of, words):
+    """A command that makes an octree of a scene, and an instance of that."""
+    return f"!oconv -f {of}.rad >FOLDER/{of}.oct && echo {modifier} instance {of} {1 + len(words.split())} FOLDER/{of}.oct {words} 0 0\n"
+
+
+def volumes(random):
+    """Antimatter and mist in instances, and as the modifiers of some."""
+    lamp = "void light lit 0 0 3 5e7 4e7 3e7\nlit sphere lamp 0 0 4 .2 -.3 2.9 .0001\n"
+    floor = "void plastic grey 0 0 5 .5 .4 .3 0 0\ngrey polygon floor 0 0 12 -3 -3 0 3 -3 0 3 3 0 -3 3 0\n"
+    seen = np.vstack([aim(eye, grid([-2, -1.6, .01], [2, 1.2, .01], 100, random) + [0, 0, .6] * (np.arange(100)[:, None] % 2)) for eye in [[.1, -4, 2], [-2, 1, 3]]])
+    bitten = lamp + floor + instance("void", "bitten", "-s .8 -t 0 -.6 0") + instance("void", "bitten", "-mx -rz 30 -s .7 -t 0 .8 .2")
+    yield Case("antimatter in instances", bitten, seen, "-ab 0", "-dj 0", repeat=2, commands=True, letter="x")
+    cut = lamp + floor + "void plastic red 0 0 5 .7 .2 .1 0 0\nred sphere ball 0 0 4 0 0 1 .7\nvoid antimatter hole 1 red 0 0\n"
+    yield Case("instances of antimatter", cut + instance("hole", "blob", "-s .5 -t .3 -.5 1.2") + instance("red", "blob", "-s .5 -t 1.4 0 .8")
+               + "hole sphere other 0 0 4 1.3 -.3 1 .3\n", seen, "-ab 0", "-dj 0", repeat=2, commands=True, letter="x")
+    foggy = aim([.1, -4, 1.2], grid([-2.2, 0, .05], [2.2, 0, 2.2], 100, random))
+    clouds = lamp + floor + instance("void", "cloud", "-t -.4 0 0") + instance("void", "cloud", "-s .7 -t 1.4 .3 .2")
+    yield Case("mist in instances", clouds, foggy, "-ab 0 -av .1 .2 .3 -ma .8 .7 .6 -mg .5", "-ms .05", repeat=128, samples=16384, commands=True)
+    yield Case("instances of mist", lamp + floor + "void mist fog 1 lamp 0 3 .5 .25 .75\n" + instance("fog", "blob", "-s .8 -t -.5 0 1"), foggy[::2],
+               "-ab 0 -av .1 .2 .3 -ma .8 .7 .6 -mg .5", "-ms .05", repeat=128, samples=16384, commands=True)
+
+
 def cases():
     random = np.random.default_rng(20261123)
     for name, numbers in SHAPES.items():
@@ -176,6 +198,7 @@ def cases():
     yield from transforms(random)
     yield from generators(random)
     yield from octrees(random)
+    yield from volumes(random)
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ static void assert_refused(const char *text, const char *why) {
 static void test_refused(void **state) {
     (void)state;
     assert_refused("", "grid.dat:1:1: the data file ends where the number of dimensions should be");
-    assert_refused("6", "the number of dimensions must be a whole number from 1 to 5");
+    assert_refused("7", "the number of dimensions must be a whole number from 1 to 6");
     assert_refused("1\n0 1 1\n1", "grid.dat:2:5: the number of places of a dimension must be a whole number from 2");
     assert_refused("1\n0 1 9\n1", "the data file has fewer values than its 9 places");
     assert_refused("1\n0 1 2\n1 #", "grid.dat:3:4: the data file ends where a value should be");

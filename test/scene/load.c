@@ -28,13 +28,43 @@ static void unsupported_types_are_refused_by_name(void **state) {
                    ":1:1: specfile p", "not supported");
 }
 
-static void surfaces_need_a_material(void **state) {
+static void assert_warned(const char *text, const char *where, const char *what) {
+    graze_scene *scene = scene_from_text(text);
+    if (!scene || !strstr(messages, where) || !strstr(messages, what))
+        fail_msg("%s: %s", text, messages);
+    graze_scene_destroy(scene);
+}
+
+static void shapes_without_a_size_are_left_out(void **state) {
     (void)state;
-    assert_refused("void sphere s 0 0 4 0 0 0 1\n", ":1:1: sphere s", "no material");
+    assert_warned("void plastic p 0 0 5 1 1 1 0 0 p sphere s 0 0 4 0 0 0 1e-7", ":1:32: sphere s",
+                  "zero radius; the surface is left out");
+    assert_warned("void plastic p 0 0 5 1 1 1 0 0 p bubble s 0 0 4 0 0 0 0", ":1:32: bubble s",
+                  "zero radius; the surface is left out");
+}
+
+static void surfaces_without_a_material_are_told(void **state) {
+    (void)state;
+    assert_warned("void sphere s 0 0 4 0 0 0 1\n", ":1:1: sphere s", "no material");
+    assert_warned("void brightfunc p 2 1 . 0 0 void plastic a 0 0 5 1 1 1 0 0 void mixfunc m 4 a p .5 . 0 0 "
+                  "m sphere s 0 0 4 0 0 0 1 p sphere t 0 0 4 3 0 0 1",
+                  ":1:1: brightfunc p", "there is no material behind it");
+    assert_warned("void mixfunc m 4 void void .5 . 0 0 m sphere s 0 0 4 0 0 0 1", ":1:1: mixfunc m",
+                  "there is no material behind it");
+}
+
+/* Words that Radiance passes over. */
+static void idle_words_are_told(void **state) {
+    (void)state;
+    assert_warned("void plastic2 m 7 1 0 0 . idle -rx 9 0 6 1 1 1 0 .1 .2 m sphere s 0 0 4 0 0 0 1", ":1:1: plastic2 m",
+                  "its string argument 5, 'idle', has no meaning");
+    assert_warned("void plastic2 m 7 1 Px 0 . idle -rx 9 0 6 1 1 1 0 .1 .2 m sphere s 0 0 4 0 0 0 1",
+                  ":1:1: plastic2 m", "its string argument 5, 'idle', has no meaning");
 }
 
 static void lights_are_checked(void **state) {
     (void)state;
+    assert_warned("void light l 1 x 0 3 1 1 1 l sphere s 0 0 4 0 0 0 1\n", ":1:1: light l", "\"x\", has no meaning");
     assert_refused("void light l 0 0 3 1 -1 1 l sphere s 0 0 4 0 0 0 1\n", "light l", "negative");
     assert_refused("void plastic p 0 0 5 1 1e11 1 0 0 p sphere s 0 0 4 0 0 0 1\n", "plastic p",
                    "real argument 2 is above 1e10");
@@ -46,7 +76,8 @@ static void lights_are_checked(void **state) {
 
 static void illums_are_checked(void **state) {
     (void)state;
-    assert_refused("void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "1 string at most");
+    assert_warned("void plastic a 0 0 5 1 1 1 0 0 void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n",
+                  ":1:32: illum i", "string argument 2, \"b\", has no meaning");
     assert_refused("void illum i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "no modifier 'a' before");
     assert_refused("void light l 0 0 3 1 1 1 void illum i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "illum i",
                    "seen as l, which shines");
@@ -143,9 +174,10 @@ static void mist_is_checked(void **state) {
     assert_refused("void brightfunc p 2 Px . 0 0 p mist i 0 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "mist i",
                    "patterns on mist");
     graze_scene *scene = scene_from_text("void light l 0 0 3 1 1 1 l sphere a 0 0 4 5 0 0 1 "
-                                         "void mist i 3 a b a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1");
+                                         "void mist i 4 a b a m>a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1");
     assert_non_null(scene);
     assert_non_null(strstr(messages, "mist i: there is no light 'b'"));
+    assert_non_null(strstr(messages, "mist i: what a mirror or a prism throws, as 'm>a', is not scattered"));
     assert_non_null(strstr(messages, "mist i: light 'a' is listed twice"));
     graze_scene_destroy(scene);
 }
@@ -278,16 +310,11 @@ static void mixtures_are_checked(void **state) {
     (void)state;
     assert_refused("void mist d 0 0 0 void mixfunc m 4 d void .5 . 0 0 m sphere s 0 0 4 0 0 0 1", ":1:19: mixfunc m",
                    "a mixture with mist or antimatter is not supported");
-    assert_refused("void brightfunc p 2 1 . 0 0 void plastic a 0 0 5 1 1 1 0 0 void mixfunc m 4 a p .5 . 0 0 "
-                   "m sphere s 0 0 4 0 0 0 1 p sphere t 0 0 4 3 0 0 1",
-                   ":1:1: brightfunc p", "there is no material behind it");
     assert_refused("void glow g 0 0 4 1 1 1 0 void light l 0 0 3 1 1 1 void mixfunc m 4 g l .5 . 0 0 "
                    "m sphere s 0 0 4 0 0 0 1",
                    "mixfunc m", "a mixture of two materials that shine is not supported");
     assert_refused("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m source s 0 0 4 0 0 1 9", "source s",
                    "a source that shines by a mixture is not supported");
-    assert_refused("void mixfunc m 4 void void .5 . 0 0 m sphere s 0 0 4 0 0 0 1", ":1:1: mixfunc m",
-                   "there is no material behind it");
 }
 
 /* One light for all surfaces, which is none that is sampled; lamps are told of, a glow that is seen only anyway is not.
@@ -382,7 +409,9 @@ static void an_empty_scene_is_a_scene(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unsupported_types_are_refused_by_name),
-        cmocka_unit_test(surfaces_need_a_material),
+        cmocka_unit_test(shapes_without_a_size_are_left_out),
+        cmocka_unit_test(surfaces_without_a_material_are_told),
+        cmocka_unit_test(idle_words_are_told),
         cmocka_unit_test(lights_are_checked),
         cmocka_unit_test(illums_are_checked),
         cmocka_unit_test(prisms_are_checked),
