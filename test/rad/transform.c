@@ -116,6 +116,7 @@ static void errors(void **state) {
         {{"-t", "1", "2", "3"}, 3, "bad transform at '-t'"},
         {{"-s", "2"}, 1, "bad transform at '-s'"},
         {{"-rx", "2"}, 1, "bad transform at '-rx'"},
+        {{"-mx", "-s", "2"}, 2, "bad transform at '-s'"},
         {{"-i", "2"}, 1, "bad transform at '-i'"},
         {{"-mx", "-mx", "2"}, 3, "bad transform at '2'"},
         {{"-rw", "90"}, 2, "bad transform at '-rw'"},
