@@ -85,8 +85,8 @@ static void what_panes_reflect_is_in_the_error(void **state) {
     graze_scene_destroy(scene);
 }
 
-/* Through a pane the sky is seen, which is exact; in the pane, a wall whose gloss few paths follow, and fewer of them to
- * the sky. What none of them has met is in the error. */
+/* Through a pane the sky is seen, which is exact; in the pane, a wall whose gloss few paths follow, and fewer of them
+ * to the sky. What none of them has met is in the error. */
 static void what_is_not_met_is_in_the_error(void **state) {
     (void)state;
     graze_scene *scene = load("void glow g 0 0 4 10 10 10 0 g source sky 0 0 4 1 0 0 180\n"
@@ -130,9 +130,8 @@ static void zeros_are_exact_where_all_is_dark(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_cover_a_caustic),
-                                       cmocka_unit_test(what_panes_reflect_is_in_the_error),
-                                       cmocka_unit_test(what_is_not_met_is_in_the_error),
-                                       cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intervals_cover_a_caustic), cmocka_unit_test(what_panes_reflect_is_in_the_error),
+        cmocka_unit_test(what_is_not_met_is_in_the_error), cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
