@@ -146,24 +146,24 @@ struct graze_scene {
     bool has_mirrors;              /* not faint ones: light comes by ways that no light sample finds */
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
-    bool has_panes;          /* surfaces that light goes straight through */
-    bool has_refraction;     /* dielectrics, prisms */
-    struct scene_mist *mist; /* (scene/mist.h) null: none */
-    struct scene_cuts *cuts; /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
+    bool has_panes;      /* surfaces that light goes straight through */
+    bool has_refraction; /* dielectrics, prisms */
+    bool has_secondary;  /* lights of the material illum */
     bool mist_in_copies;
-    struct scene_balls *balls; /* (scene/balls.h) that throw lights back; null: none */
-    bool has_secondary;        /* lights of the material illum */
-    scene_light *lights;       /* the shapes first, then the sources; and behind these, what is only seen */
+    struct scene_mist *mist;         /* (scene/mist.h) null: none */
+    struct scene_cuts *cuts;         /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
+    struct scene_balls *balls;       /* (scene/balls.h) that throw lights back; null: none */
+    struct sight_cells *sight_cells; /* null: none */
+    scene_light *lights;             /* the shapes first, then the sources; and behind these, what is only seen */
     size_t light_count;
     size_t seen_light_count;
     size_t copied_light_count; /* the last of the shapes, in the order of their numbers, are glows in copies */
-    bool meets_glows;          /* that light what is about but are not sampled: in mixtures, or too many copies */
     size_t first_source;       /* lights[first_source ..] are sources: `light` ones before `glow` ones */
+    bool meets_glows;          /* that light what is about but are not sampled: in mixtures, or too many copies */
     bool has_sky;              /* one of them is so wide that it is a sky */
     bool suns_overlap;         /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
-    struct sight_cells *sight_cells; /* null: none */
 };
 
 /* What a material is seen as, by all but light samples. */

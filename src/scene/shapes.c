@@ -35,6 +35,7 @@ static void make_block(void *user, size_t index, int worker) {
 
 /* The caller's thread uses the scene's memory, which then gets what others have used. */
 static bool make_all(scene_shapes *made, arena *memory, int threads) {
+    /* Pointers are what is wanted. NOLINTNEXTLINE(bugprone-sizeof-expression) */
     arena **memories = calloc((size_t)threads, sizeof *memories);
     if (!memories)
         return false;

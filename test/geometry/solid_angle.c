@@ -101,6 +101,7 @@ enum {
     STRIP,
     QUAD,
     ELL,
+    OCTAGON,
     SPHERE,
     BUBBLE,
     DISK,
@@ -116,7 +117,7 @@ enum {
 
 /* The subjects hold pointers into themselves: they are made where they stay. */
 static void make_subjects(subject *s) {
-    static const uint32_t fan[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+    static const uint32_t fan[6][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}};
     static const uint32_t ell_triangles[4][3] = {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}};
     static const double triangle[][2] = {{-0.5, -0.4}, {0.7, -0.3}, {0.1, 0.6}};
     static const double sliver[][2] = {{-0.7, 0}, {0.7, -0.001}, {0.6, 0.002}};
@@ -124,12 +125,15 @@ static void make_subjects(subject *s) {
     static const double strip[][2] = {{-1, -0.01}, {1, -0.01}, {1, 0.01}, {-1, 0.01}};
     static const double quad[][2] = {{-0.5, -0.5}, {0.6, -0.4}, {0.4, 0.6}, {-0.7, 0.3}};
     static const double ell[][2] = {{-0.5, -0.5}, {0.6, -0.5}, {0.6, 0}, {0, 0}, {0, 0.6}, {-0.5, 0.6}};
+    static const double octagon[][2] = {{-0.2, -0.6}, {0.3, -0.5}, {0.6, -0.2}, {0.6, 0.3},
+                                        {0.2, 0.6},   {-0.3, 0.6}, {-0.5, 0.2}, {-0.5, -0.3}};
     make_polygon(&s[TRIANGLE], "triangle", triangle, 3, fan, 1);
     make_polygon(&s[SLIVER], "sliver", sliver, 3, fan, 1);
     make_polygon(&s[RECTANGLE], "rectangle", rectangle, 4, fan, 2);
     make_polygon(&s[STRIP], "strip", strip, 4, fan, 2);
     make_polygon(&s[QUAD], "quadrilateral", quad, 4, fan, 2);
     make_polygon(&s[ELL], "L", ell, 6, ell_triangles, 4);
+    make_polygon(&s[OCTAGON], "octagon", octagon, 8, fan, 6);
     make_sphere(&s[SPHERE], "sphere", false);
     make_sphere(&s[BUBBLE], "bubble", true);
     make_ring(&s[DISK], "disk", 0, 0.8);
@@ -641,7 +645,7 @@ static void nothing_is_seen_from_the_plane(void **state) {
     static subject subjects[SUBJECTS];
     make_subjects(subjects);
     uint64_t random = 5;
-    static const int flat[] = {TRIANGLE, RECTANGLE, QUAD, ELL, DISK, RING, RIM};
+    static const int flat[] = {TRIANGLE, RECTANGLE, QUAD, ELL, OCTAGON, DISK, RING, RIM};
     for (size_t i = 0; i < COUNT(flat); i++) {
         const shape *s = &subjects[flat[i]].shape;
         for (int k = 0; k < 500; k++) {
@@ -661,7 +665,7 @@ static void limits_near_and_far(void **state) {
     (void)state;
     static subject subjects[SUBJECTS];
     make_subjects(subjects);
-    static const int solid[] = {TRIANGLE, RECTANGLE, QUAD, ELL, SPHERE, DISK, RING, CYLINDER, CONE, FRUSTUM};
+    static const int solid[] = {TRIANGLE, RECTANGLE, QUAD, ELL, OCTAGON, SPHERE, DISK, RING, CYLINDER, CONE, FRUSTUM};
     for (size_t i = 0; i < COUNT(solid); i++) {
         const shape *s = &subjects[solid[i]].shape;
         element e = patch_at(s, 0, 0.52, 0.47);

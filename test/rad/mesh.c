@@ -8,16 +8,20 @@ static void write_binary(const char *name, const binary *b) {
     write_bytes(name, b->bytes, b->length);
 }
 
-static void put_mesh_head(binary *b) {
+static void put_mesh_head_of(binary *b, const char *x, const char *edge) {
     put_line(b, "#?RADIANCE\nobj2mesh\nFORMAT=Radiance_tmesh\n\n");
     put_integer(b, 319 + 4, 2);
-    const char *const cube[] = {"-1", "-2", "-3", "4"};
+    const char *const cube[] = {x, "-2", "-3", edge};
     for (int i = 0; i < 4; i++)
         put_text(b, cube[i]);
     const double limits[] = {-1, 1, 0, 8};
     for (int i = 0; i < 4; i++)
         put_real(b, limits[i]);
     put_integer(b, 0, 1); /* no tree */
+}
+
+static void put_mesh_head(binary *b) {
+    put_mesh_head_of(b, "-1", "4");
 }
 
 /* Two materials. */
@@ -144,6 +148,50 @@ static void reads_a_mesh(void **state) {
     rad_scene_destroy(scene);
 }
 
+/* The sizes of two of its coordinates, not the largest, in steps of which 8191.5 are sqrt(1/2). */
+static int64_t encode_direction(vec3 d) {
+    const double size[] = {fabs(d.x), fabs(d.y), fabs(d.z)}, steps = 8191.5 * sqrt(2);
+    const int64_t signs = (d.x < 0) | (d.y < 0) << 1 | (d.z < 0) << 2;
+    const bool largest_is_x = size[0] > size[1] && size[0] > size[2], largest_is_y = !largest_is_x && size[1] > size[2];
+    const int first = largest_is_x ? 1 : 0, second = largest_is_x || largest_is_y ? 2 : 1;
+    return signs | (first == 0) << 3 | (second == 2) << 4 | (int64_t)(size[first] * steps) << 5 |
+           (int64_t)(size[second] * steps) << 18;
+}
+
+static void reads_normals_of_all_directions(void **state) {
+    (void)state;
+    enum { COUNT = 200 };
+    vec3 directions[COUNT];
+    dice d = {3};
+    binary b = {.length = 0};
+    put_mesh_head(&b);
+    put_materials(&b);
+    put_integer(&b, 1, 4);
+    put_integer(&b, HAS_POINT | HAS_NORMAL, 1);
+    put_integer(&b, COUNT, 2);
+    for (int i = 0; i < COUNT; i++) {
+        directions[i] = roll_direction(&d);
+        for (int k = 0; k < 3; k++)
+            put_integer(&b, 1 << 29, 4);
+    }
+    for (int i = 0; i < COUNT; i++)
+        put_integer(&b, encode_direction(directions[i]), 4);
+    put_integer(&b, 1, 2);
+    put_bytes(&b, 0, 1, 2);
+    for (int i = 0; i < 4; i++)
+        put_integer(&b, 0, 2);
+    write_binary("good.rtm", &b);
+    messages m;
+    rad_scene *scene;
+    assert_int_equal(read_parts("void mesh it 1 good.rtm 0 0\n", &scene, &m), GRAZE_OK);
+    size_t parts;
+    const rad_mesh *mesh = rad_scene_parts(scene, &parts)[1].mesh;
+    assert_int_equal(mesh->point_count, COUNT);
+    for (int i = 0; i < COUNT; i++)
+        assert_true(vec3_length(vec3_subtract(mesh->normals[i], directions[i])) < 2e-4);
+    rad_scene_destroy(scene);
+}
+
 static void assert_refused(const char *text, const binary *b, const char *message) {
     messages m;
     rad_scene *scene;
@@ -173,6 +221,12 @@ static void damaged_meshes_are_refused(void **state) {
     b = whole;
     b.bytes[b.length - 13] = 7;
     assert_refused(text, &b, "too many triangles in a patch");
+    b = (binary){.length = 0};
+    put_mesh_head_of(&b, "left", "4");
+    assert_refused(text, &b, "bad.rtm: mesh: damaged: its cube is not given in numbers");
+    b = (binary){.length = 0};
+    put_mesh_head_of(&b, "-1", "0");
+    assert_refused(text, &b, "bad.rtm: mesh: damaged: its cube has no size");
     assert_refused("void mesh it 1 nowhere.rtm 0 0\n", NULL, "mesh it: cannot find mesh file \"nowhere.rtm\"");
     assert_refused("void mesh it 1 scene.rad 0 0\n", NULL, "scene.rad: not a compiled mesh (from scene.rad:1:1)");
     assert_refused("void mesh it 3 bad.rtm -t 1 0 0\n", NULL, "mesh it: bad transform at \"-t\"");
@@ -268,8 +322,11 @@ static void circles_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_a_mesh),        cmocka_unit_test(damaged_meshes_are_refused),
-        cmocka_unit_test(survives_damage),     cmocka_unit_test(parts_in_order),
+        cmocka_unit_test(reads_a_mesh),
+        cmocka_unit_test(reads_normals_of_all_directions),
+        cmocka_unit_test(damaged_meshes_are_refused),
+        cmocka_unit_test(survives_damage),
+        cmocka_unit_test(parts_in_order),
         cmocka_unit_test(circles_are_refused),
     };
     return cmocka_run_group_tests(tests, enter_directory, leave_directory);

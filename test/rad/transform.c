@@ -25,6 +25,7 @@ static void operations(void **state) {
     assert_point(PARSE("-rx", "90"), p, vec3_make(1, -3, 2));
     assert_point(PARSE("-ry", "90"), p, vec3_make(3, 2, -1));
     assert_point(PARSE("-rz", "90"), p, vec3_make(-2, 1, 3));
+    assert_point(PARSE("-rz", "180"), p, vec3_make(-1, -2, 3));
     assert_point(PARSE("-rz", "-450"), p, vec3_make(2, -1, 3));
     assert_point(PARSE("-rz", "30"), vec3_make(1, 0, 0), vec3_make(sqrt(.75), .5, 0));
     assert_point(PARSE("-s", "-2"), p, vec3_make(-2, -4, -6));
@@ -111,6 +112,13 @@ static void errors(void **state) {
         {{""}, 1, "bad transform at ''"},
         {{"-"}, 1, "bad transform at '-'"},
         {{"-r"}, 1, "bad transform at '-r'"},
+        /* What stands behind the words is not theirs. */
+        {{"-t", "1", "2", "3"}, 3, "bad transform at '-t'"},
+        {{"-s", "2"}, 1, "bad transform at '-s'"},
+        {{"-rx", "2"}, 1, "bad transform at '-rx'"},
+        {{"-mx", "-s", "2"}, 2, "bad transform at '-s'"},
+        {{"-i", "2"}, 1, "bad transform at '-i'"},
+        {{"-mx", "-mx", "2"}, 3, "bad transform at '2'"},
         {{"-rw", "90"}, 2, "bad transform at '-rw'"},
         {{"-r{", "90"}, 2, "bad transform at '-r{'"},
         {{"-m{"}, 1, "bad transform at '-m{'"},

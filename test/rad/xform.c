@@ -245,6 +245,8 @@ static void refuses_bad_commands(void **state) {
     write_file("itself.rad", "!xform -t 1 0 0 itself.rad\n!xform -t 1 0 0 itself.rad\n");
     write_file("empty", "# nothing\n");
     write_file("again", "-f again\n");
+    write_file("open", "-t 1 0 0\n-n \"a\n");
+    assert_int_equal(system("printf -- '-t 1 0 0\\n-\\0n' >zero"), 0);
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -268,6 +270,8 @@ static void refuses_bad_commands(void **state) {
         {"!xform -a 4000 -t 1 0 0 -a 4000 -t 0 1 0 -i 1 missing.rad", "more than 10000000 instances"},
         {"!xform -f", "missing file for -f option"},
         {"!xform -f empty ball.rad", "empty argument file \"empty\""},
+        {"!xform -f open ball.rad", "bad line in argument file: -n \"a"},
+        {"!xform -f zero ball.rad", "xform: zero is no argument file"},
         {"!xform -f again ball.rad", "nested more than 64 deep"},
         {"!xform missing.rad", "cannot find file \"missing.rad\""},
         {"!xform itself.rad", "nested more than 64 deep"},
