@@ -146,10 +146,10 @@ struct graze_scene {
     bool has_mirrors;              /* not faint ones: light comes by ways that no light sample finds */
     int *mirrors;                  /* mirror_count surfaces that do mirror */
     size_t mirror_count;
-    bool has_panes;      /* surfaces that light goes straight through */
-    bool has_refraction; /* dielectrics, prisms */
-    bool has_secondary;  /* lights of the material illum */
-    bool mist_in_copies;
+    bool has_panes;                  /* surfaces that light goes straight through */
+    bool has_refraction;             /* dielectrics, prisms */
+    bool has_secondary;              /* lights of the material illum */
+    bool mist_in_copies;             /* its surfaces are among these, and passed over */
     struct scene_mist *mist;         /* (scene/mist.h) null: none */
     struct scene_cuts *cuts;         /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
     struct scene_balls *balls;       /* (scene/balls.h) that throw lights back; null: none */
