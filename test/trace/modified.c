@@ -110,8 +110,7 @@ static void mixtures_are_means(void **state) {
 static void strategies_agree_about_light_by_mirrors(void **state) {
     (void)state;
     static const char *const pairs[] = {
-        "void colorfunc p 4 .5+.4*sin(3*Px) .7 .5+.2*Pz . 0 0 p mirror q 0 0 3 .9 .8 .7 void plastic m 0 0 5 .5 .4 .3 "
-        ".1 .2",
+        "void colorfunc p 4 .5+.4*sin(3*Px) .7 Pz . 0 0 p mirror q 0 0 3 .9 .8 .7 void plastic m 0 0 5 .5 .4 .3 .1 .2",
         "void mirror q 0 0 3 .9 .8 .7 void plasfunc m 2 max . 0 4 0 0 0 .3",
         "void plastic q 0 0 5 0 0 0 0 0 void plasfunc m 2 max . 0 4 0 0 0 .3", /* for comparison */
     };
