@@ -36,8 +36,10 @@ static size_t cells_of(int levels) {
 
 static int levels_of(double area, double largest) {
     int levels = MOST_LEVELS;
-    for (; levels > LEAST_LEVELS && 2 * area < largest; area *= 4)
+    while (levels > LEAST_LEVELS && 2 * area < largest) {
+        area *= 4;
         levels--;
+    }
     return levels;
 }
 

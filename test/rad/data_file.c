@@ -74,6 +74,10 @@ static void test_plane(void **state) {
     assert_value(d, 2, 3, 7);
     assert_value(d, 1, 2, 4);
     assert_value(d, 0.5, 1.5, 0.75 * 1.5 + 0.25 * 5.5);
+    d = read_text(memory, "2\n0 2 3\n0 1 2\n1 2\n3 5\n8 4\n");
+    assert_non_null(d);
+    assert_value(d, 1.5, 0, 5.5);
+    assert_value(d, 2, 1, 4);
     arena_destroy(memory);
 }
 

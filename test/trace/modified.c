@@ -106,6 +106,39 @@ static void mixtures_are_means(void **state) {
         }
 }
 
+/* The lamp shines on the floor by way of a mirror with a pattern, on a function, and through mist. */
+static void strategies_agree_about_light_by_mirrors(void **state) {
+    (void)state;
+    static const char *const pairs[] = {
+        "void colorfunc p 4 .5+.4*sin(3*Px) .7 Pz . 0 0 p mirror q 0 0 3 .9 .8 .7 void plastic m 0 0 5 .5 .4 .3 .1 .2",
+        "void mirror q 0 0 3 .9 .8 .7 void plasfunc m 2 max . 0 4 0 0 0 .3",
+        "void plastic q 0 0 5 0 0 0 0 0 void plasfunc m 2 max . 0 4 0 0 0 .3", /* for comparison */
+    };
+    const vec3 eye = {0.2, -2, 1.5};
+    const graze_ray ray = {.origin = eye, .direction = vec3_subtract(vec3_make(0.1, 1.2, 0), eye)};
+    for (int mist = 0; mist < 2; mist++) {
+        graze_answer answers[3];
+        for (int pair = 0; pair < 3; pair++) {
+            char text[1000];
+            snprintf(
+                text, sizeof text,
+                "%s q polygon wall 0 0 12 -2 2 0 2 2 0 2 2 3 -2 2 3 m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0 "
+                "void light l 0 0 3 40 30 20 l sphere lamp 0 0 4 .5 .6 1.5 .4",
+                pairs[pair]);
+            graze_trace_settings settings = graze_trace_defaults();
+            settings.samples = 20000;
+            settings.mist_extinction = rgb_gray(mist ? 0.2 : 0);
+            graze_answer both = answer_along(text, &settings, ray);
+            settings.strategy = GRAZE_STRATEGY_LIGHT;
+            assert_answers_agree(pairs[pair], answer_along(text, &settings, ray), both);
+            settings.strategy = GRAZE_STRATEGY_BRDF;
+            assert_answers_agree(pairs[pair], answer_along(text, &settings, ray), both);
+            answers[pair] = both;
+        }
+        assert_true(answers[1].value.g > 1.05 * answers[2].value.g);
+    }
+}
+
 /* Void in a mixture is as clear as glass that does not refract: before a surface that reflects, one that transmits
  * straight on or diffusely, and one whose rough transmission leaves it to chance. */
 static void void_is_clear(void **state) {
@@ -212,6 +245,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strategies_agree),
         cmocka_unit_test(mixtures_are_means),
+        cmocka_unit_test(strategies_agree_about_light_by_mirrors),
         cmocka_unit_test(void_is_clear),
         cmocka_unit_test(a_pattern_without_a_material_is_void),
         cmocka_unit_test(textures_bend_what_is_seen),
