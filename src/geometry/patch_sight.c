@@ -8,8 +8,8 @@
 
 /* Boxes and surfaces that are looked at before an answer is given up, and once something is in the way, in the hope of
  * a surface that hides all. */
-#define TESTS       400
-#define TESTS_MIXED 40
+#define TESTS       160
+#define TESTS_MIXED 16
 
 enum { PATCH_CORNERS = 4, ROUND_CORNERS = 8, MOST_PLANES = 32 };
 
@@ -239,18 +239,24 @@ static bool make_hull(hull *h, const geometry *g, const geometry_patch *patch) {
     return true;
 }
 
-static bool is_outside(const hull *h, const shaft_node *n) {
+typedef enum place_of_box { OUTSIDE, ACROSS, INSIDE } place_of_box;
+
+static place_of_box find_box(const hull *h, const shaft_node *n) {
     if (n->upper.x < h->lower.x || n->lower.x > h->upper.x || n->upper.y < h->lower.y || n->lower.y > h->upper.y ||
         n->upper.z < h->lower.z || n->lower.z > h->upper.z)
-        return true;
+        return OUTSIDE;
     vec3 half = vec3_scale(0.5, vec3_subtract(n->upper, n->lower)), center = vec3_add(n->lower, half);
+    place_of_box where = INSIDE;
     for (int i = 0; i < h->plane_count; i++) {
         const plane *p = &h->planes[i];
         double reach = fabs(p->normal.x) * half.x + fabs(p->normal.y) * half.y + fabs(p->normal.z) * half.z;
-        if (vec3_dot(p->normal, vec3_subtract(center, p->point)) + reach < 0)
-            return true;
+        double height = vec3_dot(p->normal, vec3_subtract(center, p->point));
+        if (height + reach < 0)
+            return OUTSIDE;
+        if (height - reach <= 0)
+            where = ACROSS;
     }
-    return false;
+    return where;
 }
 
 /* Patch and light are on the same side of a flat body's plane. */
@@ -344,20 +350,24 @@ static geometry_visibility meet_leaf(const hull *h, const shaft_tree *tree, cons
 
 static geometry_visibility look_through(const hull *h, const shaft_tree *tree) {
     uint32_t stack[SHAFT_TREE_DEPTH + 1] = {0};
-    int height = tree->nodes ? 1 : 0;
+    int height = tree->nodes ? 1 : 0, budget = TESTS;
     bool mixed = false;
-    for (int budget = TESTS; height > 0; budget--) {
+    while (height > 0) {
         const shaft_node *n = &tree->nodes[stack[--height]];
-        if (budget <= 0)
+        if (--budget < 0)
             return GEOMETRY_MIXED;
-        if (is_outside(h, n) || (mixed && n->count > 1))
+        place_of_box where = find_box(h, n);
+        if (where == OUTSIDE || (mixed && n->count > 1))
             continue;
-        if (n->count == 0) {
+        geometry_visibility found = GEOMETRY_CLEAR;
+        if (n->count > 0) {
+            found = meet_leaf(h, tree, n);
+        } else if (where == INSIDE) {
+            found = GEOMETRY_MIXED;
+        } else {
             stack[height++] = n->first;
             stack[height++] = n->first + 1;
-            continue;
         }
-        geometry_visibility found = meet_leaf(h, tree, n);
         if (found == GEOMETRY_BLOCKED)
             return found;
         if (found == GEOMETRY_MIXED && !mixed) {
