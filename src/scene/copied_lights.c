@@ -181,10 +181,10 @@ static void renumber(graze_scene *scene, int from, int by) {
     }
 }
 
-/* Puts them behind the other shapes, before the sources. */
+/* Puts them behind all that light others. */
 static void insert_lights(scene_builder *b, const scene_light *added, size_t count) {
     graze_scene *scene = b->scene;
-    const size_t first = scene->first_source, behind = scene->light_count + scene->seen_light_count - first;
+    const size_t first = scene->light_count, behind = scene->seen_light_count;
     scene_light *all = realloc(scene->lights, (first + count + behind) * sizeof *all);
     if (!all) {
         scene_fail(b, report_out_of_memory(b->report));
@@ -197,10 +197,8 @@ static void insert_lights(scene_builder *b, const scene_light *added, size_t cou
         all[first + i] = added[i];
         all[first + i].seen_as += (int)count;
     }
-    renumber(scene, (int)scene->light_count, (int)count);
-    scene->first_source += count;
+    renumber(scene, (int)first, (int)count);
     scene->light_count += count;
-    scene->copied_light_count = count;
 }
 
 static void add_all(scene_builder *b, census *parts) {

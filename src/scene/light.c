@@ -66,7 +66,7 @@ static bool source_contains(const scene_light *light, vec3 direction) {
 }
 
 int light_source_towards(const graze_scene *scene, vec3 direction) {
-    for (size_t i = scene->first_source; i < scene->light_count; i++)
+    for (size_t i = scene->first_source; i < scene->first_copied; i++)
         if (source_contains(&scene->lights[i], direction))
             return (int)i;
     return -1;

@@ -71,7 +71,8 @@ static void prepare_every(light_choice *choice, const graze_scene *scene) {
     vec3 point = light_tree_point(&scene->light_tree, r->point);
     bool ambient = !rgb_is_black(r->ambient_diffuse) || !rgb_is_black(r->ambient_glossy);
     choice->root.candidates = 0;
-    for (int i = 0; i < (int)scene->light_count; i++) {
+    choice->every = (int)light_choice_count(scene, r);
+    for (int i = 0; i < choice->every; i++) {
         bool reaches = can_reach(scene, i, r, point, ambient);
         choice->root.of[i] = reaches ? 1 : 0;
         choice->root.candidates += reaches;
@@ -100,7 +101,7 @@ double light_expectation(const light_choice *choice, int light) {
     if (!light_choice_is_possible(choice) || tree->group_of[light] < 0)
         return 0;
     if (light_choice_is_every_one(choice))
-        return (double)choice->root.of[light];
+        return light < choice->every ? (double)choice->root.of[light] : 0;
     int index = tree->group_of[light];
     size_t entry = tree->entry_of[light];
     double probability = 1;

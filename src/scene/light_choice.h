@@ -18,10 +18,17 @@ typedef struct light_receiver {
 /* As `draws`: none is chosen, every light is sampled. For LIGHT_GROUP_MOST lights at most. */
 enum { LIGHT_EVERY_ONE = 0 };
 
+/* How many of the lights, from the first one on, might light the point: glows in copies only where ambient ones do. */
+static inline size_t light_choice_count(const graze_scene *scene, const light_receiver *r) {
+    bool ambient = !rgb_is_black(r->ambient_diffuse) || !rgb_is_black(r->ambient_glossy);
+    return ambient ? scene->light_count : scene->first_copied;
+}
+
 /* The lights as one point sees them. Large: not to be copied. */
 typedef struct light_choice {
     const light_tree *tree;
     light_receiver receiver;
+    int every; /* where every one is sampled, so many of them: light_choice_count */
     light_weights_input input;
     light_weights root;
 } light_choice;

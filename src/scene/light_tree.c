@@ -272,10 +272,13 @@ vec3 light_tree_point(const light_tree *t, vec3 point) {
     return (vec3){clamp_coordinate(p.x), clamp_coordinate(p.y), clamp_coordinate(p.z)};
 }
 
-static void summarize_lights(builder *b, size_t count, double *most) {
+/* Of shapes, or of sources. */
+static void summarize_lights(builder *b, size_t count, bool sources, double *most) {
     light_tree *t = b->tree;
     for (size_t i = 0; i < count; i++) {
         const scene_light *light = &b->lights[i];
+        if (sources != !light->shape)
+            continue;
         t->group_of[i] = -1;
         t->entry_of[i] = 0;
         if (light->glow && light->glow_radius < 0)
@@ -290,7 +293,7 @@ static void summarize_lights(builder *b, size_t count, double *most) {
 
 static graze_status build(builder *b, size_t count, arena *memory, const graze_report *report) {
     light_tree *t = b->tree;
-    size_t first_source = 0, groups = count / 2 + 18;
+    size_t groups = count / 2 + 18;
     double most = 0;
     t->group_of = arena_allocate(memory, (count + 1) * sizeof *t->group_of);
     t->entry_of = arena_allocate(memory, (count + 1) * sizeof *t->entry_of);
@@ -303,9 +306,9 @@ static graze_status build(builder *b, size_t count, arena *memory, const graze_r
     if (!t->group_of || !t->entry_of || !t->groups || !b->summaries || !b->order || !b->begin || !b->end || !b->near)
         return report_out_of_memory(report);
     measure_extent(t, b->lights, count);
-    summarize_lights(b, count, &most);
-    while (first_source < b->count && b->lights[b->order[first_source].light].shape)
-        first_source++;
+    summarize_lights(b, count, false, &most);
+    const size_t first_source = b->count;
+    summarize_lights(b, count, true, &most);
     (void)add_group(b, 0, b->count, -1);
     for (size_t i = 0; i < t->group_count; i++)
         divide(b, (int)i, first_source);

@@ -187,6 +187,7 @@ static void add_surfaces(scene_builder *b) {
         for (size_t i = 0; i < b->own; i++)
             if (scene->primitives[i].type == RAD_SOURCE && is_glow_source(scene, (int)i) == glow)
                 add_source(b, (int)i);
+    scene->first_copied = scene->light_count;
     survey_sources(scene);
 }
 

@@ -154,14 +154,14 @@ struct graze_scene {
     struct scene_cuts *cuts;         /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
     struct scene_balls *balls;       /* (scene/balls.h) that throw lights back; null: none */
     struct sight_cells *sight_cells; /* null: none */
-    scene_light *lights;             /* the shapes first, then the sources; and behind these, what is only seen */
+    scene_light *lights; /* the scene's shapes, the sources, and glows in copies; and behind, what is only seen */
     size_t light_count;
     size_t seen_light_count;
-    size_t copied_light_count; /* the last of the shapes, in the order of their numbers, are glows in copies */
-    size_t first_source;       /* lights[first_source ..] are sources: `light` ones before `glow` ones */
-    bool meets_glows;          /* that light what is about but are not sampled: in mixtures, or too many copies */
-    bool has_sky;              /* one of them is so wide that it is a sky */
-    bool suns_overlap;         /* a direction is in two of the `light` ones */
+    size_t first_source; /* lights[first_source .. first_copied - 1] are sources: `light` ones before `glow` ones */
+    size_t first_copied; /* lights[first_copied ..] are glows in copies, in the order of their surfaces' numbers */
+    bool meets_glows;    /* that light what is about but are not sampled: in mixtures, or too many copies */
+    bool has_sky;        /* one of them is so wide that it is a sky */
+    bool suns_overlap;   /* a direction is in two of the `light` ones */
     light_tree light_tree;
     geometry *geometry;
 };

@@ -94,7 +94,7 @@ static int least_exponent(const graze_scene *scene, double *largest) {
 }
 
 graze_status sight_cells_make(graze_scene *scene, const graze_report *report) {
-    if (scene->light_count == 0 || scene->light_count > MOST_LIGHTS || scene->surface_count == 0)
+    if (scene->first_copied == 0 || scene->first_copied > MOST_LIGHTS || scene->surface_count == 0)
         return GRAZE_OK;
     struct sight_cells *c = calloc(1, sizeof *c);
     scene->sight_cells = c;
@@ -112,7 +112,7 @@ graze_status sight_cells_make(graze_scene *scene, const graze_report *report) {
         grid *g = &c->grids[count++];
         *g = grid_of(s, (int)i, levels_of(s->polygon.area, largest));
         g->first = cells;
-        cells += g->cells * scene->light_count;
+        cells += g->cells * scene->first_copied;
         scene->surfaces[i].cells = (unsigned short)count;
     }
     c->known = calloc(cells + 1, sizeof *c->known);
@@ -130,8 +130,6 @@ void sight_cells_destroy(struct sight_cells *c) {
 /* The cell in column x, row y of so many of either. */
 static geometry_visibility look(const graze_scene *scene, const grid *g, int light, int x, int y, int side) {
     const scene_light *l = &scene->lights[light];
-    if (l->only_seen)
-        return GEOMETRY_MIXED;
     vec3 step_x = vec3_scale(1.0 / side, g->x), step_y = vec3_scale(1.0 / side, g->y);
     vec3 corner = vec3_add_scaled(vec3_add_scaled(g->corner, x, step_x), y, step_y), next = vec3_add(corner, step_x);
     geometry_patch patch = {.corners = {corner, next, vec3_add(next, step_y), vec3_add(corner, step_y)},

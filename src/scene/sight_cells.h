@@ -15,8 +15,8 @@ geometry_visibility sight_cells_find(const graze_scene *, int cells, vec3 point,
 /* What all points of a cell see of a light, in it the point of the surface (geometry_sight_of_patch); of what has no
  * cells, MIXED. */
 static inline geometry_visibility sight_cells_at(const graze_scene *scene, int64_t surface, vec3 point, int light) {
-    if (!scene->sight_cells || surface < 0 || surface >= (int64_t)scene->surface_count ||
-        scene->surfaces[surface].cells == 0)
+    if (!scene->sight_cells || light >= (int)scene->first_copied || surface < 0 ||
+        surface >= (int64_t)scene->surface_count || scene->surfaces[surface].cells == 0)
         return GEOMETRY_MIXED;
     return sight_cells_find(scene, scene->surfaces[surface].cells - 1, point, light);
 }

@@ -5,7 +5,7 @@
 
 /* The light that this surface is alone, or what all copies are seen as. */
 static int copied_light(const graze_scene *scene, int64_t number, int seen) {
-    size_t end = scene->first_source, low = end - scene->copied_light_count, high = end;
+    size_t end = scene->light_count, low = scene->first_copied, high = end;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
         if (scene->lights[middle].surface < number)
@@ -29,7 +29,7 @@ static scene_surface copied_surface(const graze_scene *scene, int64_t number) {
 
 scene_surface scene_copied_surface(const graze_scene *scene, int64_t number) {
     scene_surface surface = copied_surface(scene, number);
-    if (surface.light >= 0 && scene->copied_light_count > 0)
+    if (surface.light >= 0 && scene->first_copied < scene->light_count)
         surface.light = copied_light(scene, number, surface.light);
     return surface;
 }

@@ -15,9 +15,9 @@
 #define CHOSEN_FIRST 4
 #define CHOSEN_LATER 2
 
-static int draws(const path *p) {
+static int draws(const path *p, const light_receiver *receiver) {
     bool first = p->depth == 0;
-    if (p->context->scene->light_count <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER))
+    if (light_choice_count(p->context->scene, receiver) <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER))
         return LIGHT_EVERY_ONE;
     return first ? CHOSEN_FIRST : CHOSEN_LATER;
 }
@@ -41,7 +41,7 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
         if (glossy && !v->gloss_is_ambient)
             receiver.ambient_glossy = v->shading.specular;
     }
-    receiver.draws = draws(p);
+    receiver.draws = draws(p, &receiver);
     light_choice_prepare(lights, context->scene, &receiver);
 }
 
@@ -80,7 +80,7 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
         if (glossy && !v->transmitted_gloss_is_ambient)
             receiver.ambient_glossy = s->transmitted_specular;
     }
-    receiver.draws = draws(p);
+    receiver.draws = draws(p, &receiver);
     light_choice_prepare(&beyond->lights, p->context->scene, &receiver);
 }
 
@@ -200,7 +200,7 @@ static double step(double random, int steps, double length) {
 static ONE_SIDE void add_every_light(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,
                                      bool below) {
     double random[2];
-    for (int light = 0; light < (int)p->context->scene->light_count; light++)
+    for (int light = 0; light < lights->every; light++)
         if (!known_light_is_settled(p, light) && light_expectation(lights, light) > 0) {
             sampler_2d(p->sampler, random);
             add_sampled_light(p, v, light, 1, random, choice, below);

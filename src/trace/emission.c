@@ -119,7 +119,7 @@ rgb emission_found(const path *p, const path_hit *hit) {
     rgb found = emission_found_of(p, hit);
     if (!scene->suns_overlap || hit->surface >= 0 || !lobe_scatters(p->last.lobe))
         return found;
-    for (size_t i = (size_t)hit->light + 1; i < scene->light_count && !scene->lights[i].glow; i++)
+    for (size_t i = (size_t)hit->light + 1; i < scene->first_copied && !scene->lights[i].glow; i++)
         if (light_source_shines_from(scene, (int)i, hit->direction)) {
             path_hit other = *hit;
             other.light = (int)i;

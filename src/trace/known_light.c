@@ -153,7 +153,7 @@ void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     if (!light_choice_is_every_one(lights))
         return;
     bool at_once = p->scattered || p->context->settings->samples == 1;
-    for (int i = 0; i < (int)scene->light_count; i++) {
+    for (int i = 0; i < lights->every; i++) {
         if (light_expectation(lights, i) == 0)
             continue;
         bool glossy = !scene->lights[i].glow || !v->gloss_is_ambient;
@@ -177,7 +177,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
     if (light_choice_is_possible(lights)) {
         if (!light_choice_is_every_one(lights) || p->known.settled == 0)
             return false;
-        for (int i = 0; i < (int)scene->light_count; i++)
+        for (int i = 0; i < lights->every; i++)
             if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
                 return false;
     } else if (p->depth > 0) {

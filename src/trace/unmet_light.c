@@ -43,7 +43,7 @@ static double from_lights(const path *p, const gathering *here) {
     const light_choice *lights = &here->lights;
     double sum = 0;
     if (light_choice_is_every_one(lights)) {
-        for (int i = 0; i < (int)p->context->scene->light_count; i++)
+        for (int i = 0; i < lights->every; i++)
             if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
                 sum += from_light(p, here, i, 1);
         return sum;

@@ -181,11 +181,12 @@ static void glows_in_copies_are_lights_where_they_stand(void **state) {
                   "own instance k 5 inner.oct -t 0 10 0 0 0\nvoid instance l 6 outer.oct -mx -t 0 20 0 0 0\n");
     const struct {
         double x, y;
-        int light; /* where it is to be found; the first is the scene's own, the last the source */
-    } cases[] = {{0, 10, 1},  {1, 10, 2},   {2, 10, 3},    {3.1, 10, 4}, {0, 19, 5},
-                 {-1, 20, 6}, {-2, 20, 10}, {-3.1, 20, 7}, {-1, 21, -1}};
+        int light; /* where it is to be found: behind the scene's own and the source */
+    } cases[] = {{0, 10, 2},  {1, 10, 3},   {2, 10, 4},    {3.1, 10, 5}, {0, 19, 6},
+                 {-1, 20, 7}, {-2, 20, 10}, {-3.1, 20, 8}, {-1, 21, -1}};
     assert_int_equal(scene->light_count, 9);
-    assert_int_equal(scene->first_source, 8);
+    assert_int_equal(scene->first_source, 1);
+    assert_int_equal(scene->first_copied, 2);
     assert_false(scene->meets_glows);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         int64_t number = hit(scene, vec3_make(cases[i].x, cases[i].y, -5), vec3_make(0, 0, 1));
