@@ -67,12 +67,11 @@ static void describe_hit(const geometry *g, const candidate *found, geometry_hit
         hit->normal = triangle->normal;
         return;
     }
-    const shape *s = &scene->shapes[found->surface];
+    const bool is_copied = found->surface >= (int64_t)scene->shape_count;
     shape placed;
-    if (found->surface >= (int64_t)scene->shape_count) {
+    if (is_copied)
         placed = geometry_placed_shape(g, found->surface);
-        s = &placed;
-    }
+    const shape *s = is_copied ? &placed : &scene->shapes[found->surface];
     hit->point = shape_pull(s, hit->point);
     hit->normal = shape_normal(s, hit->point);
 }

@@ -1,117 +1,100 @@
-/* Bounds of bodies in copies: each part's surfaces of the material once, placed where the scene's copies stand. */
+/* Bounds of bodies in copies: each part's surfaces of the material once, in copies of parts as in the scene. */
 #include "scene/bounds.h"
 
 #include <stdlib.h>
 
-/* The groups of a geometry: the scene's own surfaces; of each part those of the material; and behind these, of each
- * part all, for copies whose own modifier is the material. */
+/* The groups of a geometry: of each part its surfaces of the material, and those in its copies; and behind these, of
+ * each part all, for copies whose own modifier is the material. The scene itself is the first part. */
 typedef struct collection {
     const graze_scene *scene;
     int material;
     geometry_group *groups; /* two for each part */
     bool *holds;            /* by part: it has such surfaces, or copies that do */
+    bool *placed;           /* by group */
+    shape *shapes;          /* room for those of the next group, */
     geometry_placement *placements;
-    size_t count, capacity;
-    bool failed;
 } collection;
 
-static bool is_copy_of(const collection *c, const scene_copy *copy) {
-    return copy->replaces ? copy->surface.material == c->material : c->holds[copy->part];
+static bool is_of_material(const collection *c, const scene_surface *s) {
+    return s->material == c->material;
 }
 
-/* Parts are behind those that hold copies of them. */
-static void find_holders(collection *c, const size_t *counts) {
+static bool is_copy_of(const collection *c, const scene_copy *copy) {
+    return copy->replaces ? is_of_material(c, &copy->surface) : c->holds[copy->part];
+}
+
+/* Parts are behind those that hold copies of them. Gives how many copies there are in parts, and their surfaces of the
+ * material. */
+static void find_holders(collection *c, size_t *copies, size_t *surfaces) {
+    *copies = *surfaces = 0;
     for (size_t i = c->scene->part_count; i-- > 0;) {
         const scene_part *part = &c->scene->parts[i];
-        c->holds[i] = i > 0 && counts[i] > 0;
+        const size_t before = *surfaces;
+        for (size_t k = 0; k < part->surface_count && i > 0; k++)
+            *surfaces += is_of_material(c, &part->surfaces[k]);
+        c->holds[i] = *surfaces > before;
         for (size_t k = 0; k < part->copy_count && !c->holds[i]; k++)
             c->holds[i] = is_copy_of(c, &part->copies[k]);
+        *copies += part->copy_count;
     }
 }
 
-static void put(collection *c, size_t group, const rad_transform *transform) {
-    if (c->groups[group].shape_count == 0 || c->failed)
-        return;
-    if (c->count == c->capacity) {
-        size_t capacity = c->capacity ? 2 * c->capacity : 8;
-        geometry_placement *grown = realloc(c->placements, capacity * sizeof *grown);
-        c->failed = !grown;
-        if (!grown)
-            return;
-        c->placements = grown;
-        c->capacity = capacity;
-    }
-    c->placements[c->count++] = (geometry_placement){(int)group, *transform};
+static void add_shapes(collection *c, geometry_group *group, const scene_part *part) {
+    group->shapes = c->shapes;
+    for (size_t k = 0; k < part->surface_count; k++)
+        if (is_of_material(c, &part->surfaces[k]))
+            *c->shapes++ = part->shapes[k];
+    group->shape_count = (size_t)(c->shapes - group->shapes);
 }
 
-/* Places what the copies in a part hold, which stands there by the transform (null: the scene itself); all that they
- * hold where a modifier around them is the material. */
-static void place_copies(collection *c, int number, const rad_transform *transform, bool all) {
-    const scene_part *part = &c->scene->parts[number];
-    for (size_t i = 0; i < part->copy_count; i++) {
-        const scene_copy *copy = &part->copies[i];
+/* `all`: a modifier around them is the material. */
+static void add_copies(collection *c, geometry_group *group, const scene_part *part, bool all) {
+    group->placements = c->placements;
+    for (size_t k = 0; k < part->copy_count; k++) {
+        const scene_copy *copy = &part->copies[k];
         if (!all && !is_copy_of(c, copy))
             continue;
-        const rad_transform *inner = &part->placements[i].transform;
-        const rad_transform to = transform ? rad_transform_then(inner, transform) : *inner;
         const bool whole = all || copy->replaces;
-        put(c, (size_t)copy->part + (whole ? c->scene->part_count : 0), &to);
-        place_copies(c, copy->part, &to, whole);
+        const int of = copy->part + (whole ? (int)c->scene->part_count : 0);
+        c->placed[of] = true;
+        *c->placements++ = (geometry_placement){of, part->placements[k].transform};
     }
+    group->placement_count = (size_t)(c->placements - group->placements);
 }
 
-/* How many surfaces of each part are of the material; of all parts that are copied. */
-static size_t count_surfaces(const graze_scene *scene, int material, size_t *counts) {
-    size_t sum = 0;
-    for (size_t i = 1; i < scene->part_count; i++) {
-        for (size_t k = 0; k < scene->parts[i].surface_count; k++)
-            counts[i] += scene->parts[i].surfaces[k].material == material;
-        sum += counts[i];
-    }
-    return sum;
-}
-
-static void fill_groups(collection *c, shape *shapes, const size_t *counts) {
+/* Groups are behind those that hold copies of them. Those that are placed nowhere stay empty. */
+static void fill_groups(collection *c) {
     const size_t parts = c->scene->part_count;
-    for (size_t i = 1; i < parts; i++) {
-        const scene_part *part = &c->scene->parts[i];
-        c->groups[i] = (geometry_group){.shapes = shapes, .shape_count = counts[i]};
-        c->groups[parts + i] = (geometry_group){.shapes = part->shapes, .shape_count = part->surface_count};
-        for (size_t k = 0; k < part->surface_count; k++)
-            if (part->surfaces[k].material == c->material)
-                *shapes++ = part->shapes[k];
+    c->placed[0] = true;
+    for (size_t i = 0; i < 2 * parts; i++) {
+        const scene_part *part = &c->scene->parts[i % parts];
+        const bool all = i >= parts;
+        if (!c->placed[i])
+            continue;
+        if (all)
+            c->groups[i] = (geometry_group){.shapes = part->shapes, .shape_count = part->surface_count};
+        else if (i > 0)
+            add_shapes(c, &c->groups[i], part);
+        add_copies(c, &c->groups[i], part, all);
     }
 }
 
-/* Groups that are placed nowhere need not be built. */
-static void leave_out_unplaced(collection *c) {
-    for (size_t i = 1; i < 2 * c->scene->part_count; i++) {
-        bool placed = false;
-        for (size_t k = 0; k < c->count && !placed; k++)
-            placed = c->placements[k].group == (int)i;
-        if (!placed)
-            c->groups[i].shape_count = 0;
-    }
-}
-
-/* All groups but the first, and where they are placed. */
+/* All groups, but for the scene's own surfaces. */
 static bool collect(collection *c, scene_bounds *b) {
     const size_t parts = c->scene->part_count;
-    size_t *counts = calloc(parts + 1, sizeof *counts);
-    c->holds = calloc(parts + 1, sizeof *c->holds);
-    if (counts && c->holds)
-        b->shapes = malloc((count_surfaces(c->scene, c->material, counts) + 1) * sizeof *b->shapes);
-    if (b->shapes) {
-        find_holders(c, counts);
-        fill_groups(c, b->shapes, counts);
-        if (c->holds[0])
-            place_copies(c, 0, NULL, false);
-        leave_out_unplaced(c);
+    c->holds = calloc(parts, sizeof *c->holds);
+    c->placed = calloc(2 * parts, sizeof *c->placed);
+    if (c->holds && c->placed) {
+        size_t copies, surfaces;
+        find_holders(c, &copies, &surfaces);
+        c->shapes = b->shapes = malloc((surfaces + 1) * sizeof *b->shapes);
+        c->placements = b->placements = malloc((2 * copies + 1) * sizeof *b->placements);
+        if (b->shapes && b->placements)
+            fill_groups(c);
     }
-    free(counts);
     free(c->holds);
-    b->placements = c->placements;
-    return b->shapes && !c->failed;
+    free(c->placed);
+    return b->shapes && b->placements;
 }
 
 graze_status scene_bounds_build(scene_bounds *b, const graze_scene *scene, int material, const shape *own,
@@ -123,7 +106,8 @@ graze_status scene_bounds_build(scene_bounds *b, const graze_scene *scene, int m
         free(c.groups);
         return report_out_of_memory(report);
     }
-    c.groups[0] = (geometry_group){own, own_count, c.placements, c.count};
+    c.groups[0].shapes = own;
+    c.groups[0].shape_count = own_count;
     graze_status status = geometry_build(&b->geometry, c.groups, count, threads, report);
     free(c.groups);
     return status;

@@ -43,10 +43,22 @@ static int levels_of(double area, double largest) {
     return levels;
 }
 
-/* The rectangle along the polygon's first side. */
+/* Along the polygon's longest side, in its plane: the direction of short ones may be nothing but rounding. */
+static vec3 direction_of(const shape *s) {
+    const vec3 *v = s->polygon.vertices, normal = s->polygon.normal;
+    vec3 longest = {0, 0, 0};
+    for (uint32_t i = 0, before = s->polygon.vertex_count - 1; i < s->polygon.vertex_count; before = i++) {
+        vec3 side = vec3_subtract(v[i], v[before]);
+        if (vec3_length(side) > vec3_length(longest))
+            longest = side;
+    }
+    return vec3_safe_normalize(vec3_add_scaled(longest, -vec3_dot(longest, normal), normal));
+}
+
+/* The rectangle along that side. */
 static grid grid_of(const shape *s, int surface, int levels) {
     const vec3 *v = s->polygon.vertices;
-    vec3 x = vec3_safe_normalize(vec3_subtract(v[1], v[0])), y = vec3_cross(s->polygon.normal, x);
+    vec3 x = direction_of(s), y = vec3_cross(s->polygon.normal, x);
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     for (uint32_t i = 0; i < s->polygon.vertex_count; i++) {
         vec3 from_center = vec3_subtract(v[i], s->polygon.center);

@@ -323,6 +323,13 @@ static void copies_of_nothing(void **state) {
     assert_int_equal(hit.surface, 0);
     assert_true(hit.distance == 2);
     geometry_destroy(g);
+    /* The number of a copy's surface is no index into shapes that are not there, if it is not 0. */
+    placements[0] = (geometry_placement){2, transform("-t 9 0 0")};
+    g = build(groups, 3);
+    assert_true(geometry_intersect(g, &ray, &hit));
+    assert_int_equal(hit.surface, 1);
+    geometry_destroy(g);
+    placements[0] = (geometry_placement){1, rad_transform_identity()};
     groups[0].placement_count = 1;
     g = build(groups, 2);
     assert_false(geometry_intersect(g, &ray, &hit));

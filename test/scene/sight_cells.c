@@ -88,6 +88,28 @@ static void as_shadow_rays_say(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* A floor whose first side is nothing, or next to nothing and leads out of its plane. */
+static void short_sides(void **state) {
+    (void)state;
+    const char *second[] = {"-3 -3 0", "-2.99999999 -3 .00000001"};
+    for (int i = 0; i < 2; i++) {
+        char text[1024];
+        (void)snprintf(text, sizeof text,
+                       "void plastic wall 0 0 5 .5 .5 .5 0 0\n"
+                       "void light lamp 0 0 3 10 10 10\n"
+                       "lamp sphere bulb 0 0 4 1 1 3 .1\n"
+                       "wall polygon shelf 0 0 12 0 0 1 2 0 1 2 2 1 0 2 1\n"
+                       "wall polygon floor 0 0 15 -3 -3 0 %s 5 -3 0 5 5 0 -3 5 0\n",
+                       second[i]);
+        graze_scene *scene = scene_from_text(text);
+        assert_non_null(scene);
+        int found[3] = {0};
+        check_surface(scene, "floor", found);
+        assert_true(found[GEOMETRY_CLEAR] > 1000);
+        graze_scene_destroy(scene);
+    }
+}
+
 /* Points beside the surface, as roundings may put them, are taken for its edge. */
 static void beyond_the_edge(void **state) {
     (void)state;
@@ -143,9 +165,8 @@ static void the_largest_have_cells(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_shadow_rays_say),
-        cmocka_unit_test(beyond_the_edge),
-        cmocka_unit_test(many_lights_have_none),
+        cmocka_unit_test(as_shadow_rays_say),     cmocka_unit_test(short_sides),
+        cmocka_unit_test(beyond_the_edge),        cmocka_unit_test(many_lights_have_none),
         cmocka_unit_test(the_largest_have_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

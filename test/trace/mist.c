@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "../rad/binary_writer.h"
 #include "base/angle.h"
 #include "one_ray.h"
 #include "scene/mist.h"
@@ -196,6 +197,33 @@ static void overlapping_bodies_are_one_span(void **state) {
 }
 
 /* Without mist the same bytes come out, whatever mist would do. */
+/* Mist in copies of copies: 2 to the power of the levels in all, of which the ray meets one. */
+static void copies_are_not_counted_one_by_one(void **state) {
+    (void)state;
+    enum { LEVELS = 30 };
+    written_file parts[LEVELS + 1], octrees[LEVELS + 1];
+    char text[200];
+    for (int i = 0; i <= LEVELS; i++) {
+        if (i == 0)
+            snprintf(text, sizeof text, "void mist m 0 0 3 .5 1 2 m sphere s 0 0 4 0 0 0 1");
+        else
+            snprintf(text, sizeof text, "void instance a 1 %s 0 0 void instance b 5 %s -t 50 0 0 0 0",
+                     octrees[i - 1].name, octrees[i - 1].name);
+        parts[i] = written_file_make(text, strlen(text));
+        const binary octree = octree_of_file(parts[i].name, 2);
+        octrees[i] = written_file_make(octree.bytes, octree.length);
+    }
+    snprintf(text, sizeof text,
+             "void glow g 0 0 4 1 1 1 -1 g ring wall 0 0 8 0 9 0 0 -1 0 0 9 void instance x 1 %s 0 0",
+             octrees[LEVELS].name);
+    graze_answer a = answer_of(text, graze_trace_defaults(), vec3_make(0, -5, 0), vec3_make(0, 1, 0));
+    assert_true(fabs(a.value.r - exp(-1)) < 1e-9);
+    for (int i = 0; i <= LEVELS; i++) {
+        unlink(parts[i].name);
+        unlink(octrees[i].name);
+    }
+}
+
 static void no_mist_changes_nothing(void **state) {
     (void)state;
     const char *text = "void plastic p 0 0 5 .5 .4 .3 .1 .2 p polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0 "
@@ -217,6 +245,7 @@ int main(void) {
         cmocka_unit_test(things_shade_mist),
         cmocka_unit_test(strategies_agree),
         cmocka_unit_test(overlapping_bodies_are_one_span),
+        cmocka_unit_test(copies_are_not_counted_one_by_one),
         cmocka_unit_test(no_mist_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
