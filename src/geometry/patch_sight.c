@@ -116,6 +116,7 @@ static double upper_bound(const hull *h, double patch, double light) {
     return !h->far ? double_max(patch, light) : light > 0 ? INFINITY : patch;
 }
 
+/* With what may coincide with the light. */
 static void find_bounds(hull *h) {
     h->lower = vec3_make(INFINITY, INFINITY, INFINITY);
     h->upper = vec3_negate(h->lower);
@@ -131,6 +132,9 @@ static void find_bounds(hull *h) {
             h->upper.z = double_max(h->upper.z, upper_bound(h, p.z, l.z));
         }
     }
+    vec3 slack = vec3_make(2 * h->near, 2 * h->near, 2 * h->near);
+    h->lower = vec3_subtract(h->lower, slack);
+    h->upper = vec3_add(h->upper, slack);
 }
 
 /* The octagon around a disk. */
@@ -251,7 +255,7 @@ static place_of_box find_box(const hull *h, const shaft_node *n) {
         const plane *p = &h->planes[i];
         double reach = fabs(p->normal.x) * half.x + fabs(p->normal.y) * half.y + fabs(p->normal.z) * half.z;
         double height = vec3_dot(p->normal, vec3_subtract(center, p->point));
-        if (height + reach < 0)
+        if (height + reach < (p->front ? -2 * h->near : 0))
             return OUTSIDE;
         if (height - reach <= 0)
             where = ACROSS;

@@ -86,10 +86,12 @@ static void surround_disk(shaft *s) {
     s->round = true;
 }
 
+/* With what may coincide with the light. */
 static void find_bounds(shaft *s) {
     shaft_span x = shaft_light_span(s, vec3_make(1, 0, 0)), y = shaft_light_span(s, vec3_make(0, 1, 0)),
                z = shaft_light_span(s, vec3_make(0, 0, 1));
-    vec3 slack = {s->tolerance, s->tolerance, s->tolerance};
+    double around = double_max(s->tolerance, 2 * s->near);
+    vec3 slack = {around, around, around};
     vec3 lower = {double_min(x.low, 0), double_min(y.low, 0), double_min(z.low, 0)};
     vec3 upper = {double_max(x.high, 0), double_max(y.high, 0), double_max(z.high, 0)};
     s->lower = vec3_subtract(vec3_add(s->sight->point, lower), slack);

@@ -134,11 +134,33 @@ static void a_screen_before_a_lamp(void **state) {
     geometry_destroy(w.geometry);
 }
 
+/* The later of two lamps that coincide shines in place of the earlier one, also where it is farther by less than their
+ * coordinates tell, in a box of its own or with one above both. */
+static void lamps_in_one_plane(void **state) {
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        world w = {.scale = 1};
+        add_lamp(&w, panel(&w, 1, 1, 2, 1));
+        add_lamp(&w, panel(&w, 1.5, 1.5, 2 + 4e-7, 1));
+        if (k == 1)
+            add_lamp(&w, panel(&w, 1.5, 1.5, 2.01, 1));
+        int floor = add(&w, face(&w, (double[]){0, 0, 0}, (double[]){4, 3, 2.5}, 4, true));
+        build(&w);
+        geometry_patch under = {.corners = {{1.4, 1.4, 0}, {1.6, 1.4, 0}, {1.6, 1.6, 0}, {1.4, 1.6, 0}},
+                                .surface = floor};
+        geometry_ray ray = {.origin = {1.5, 1.5, 0}, .direction = {0.1, 0.1, 1}, .far = 2, .from = floor};
+        assert_true(geometry_occluded(w.geometry, &ray, 0));
+        assert_int_equal(geometry_sight_of_patch(w.geometry, &under), GEOMETRY_MIXED);
+        geometry_destroy(w.geometry);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(empty_rooms),
         cmocka_unit_test(furnished_rooms),
         cmocka_unit_test(a_screen_before_a_lamp),
+        cmocka_unit_test(lamps_in_one_plane),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -147,6 +147,20 @@ static void a_plane_and_a_lamp(void **state) {
     geometry_destroy(w.geometry);
 }
 
+static void lamps_in_one_plane(void **state) {
+    (void)state;
+    world w = {.scale = 1};
+    add_lamp(&w, panel(&w, 1, 1, 2, 1));
+    add_lamp(&w, panel(&w, 1.5, 1.5, 2 + 4e-7, 1));
+    int floor = add(&w, face(&w, (double[]){0, 0, 0}, (double[]){4, 3, 2.5}, 4, true));
+    build(&w);
+    geometry_sight sight = {.point = {1.5, 1.5, 0}, .normal = {0, 0, 1}, .from = floor, .light = 0};
+    geometry_ray ray = {.origin = sight.point, .direction = {0.1, 0.1, 1}, .far = 2, .from = floor};
+    assert_true(geometry_occluded(w.geometry, &ray, 0));
+    assert_int_equal(geometry_sight_of(w.geometry, &sight), GEOMETRY_MIXED);
+    geometry_destroy(w.geometry);
+}
+
 /* What the only light's shadow rays say. */
 static void check_alone(world *w, vec3 normal) {
     dice d = {7};
@@ -314,6 +328,7 @@ int main(void) {
         cmocka_unit_test(meshes),
         cmocka_unit_test(nothing_above),
         cmocka_unit_test(a_plane_and_a_lamp),
+        cmocka_unit_test(lamps_in_one_plane),
         cmocka_unit_test(a_lamp_and_a_ball),
         cmocka_unit_test(lamps_and_balls_in_line),
         cmocka_unit_test(globes_without_a_gap),
