@@ -11,7 +11,7 @@
 #define TESTS       160
 #define TESTS_MIXED 16
 
-enum { PATCH_CORNERS = 4, ROUND_CORNERS = 8, MOST_PLANES = 32 };
+enum { PATCH_CORNERS = 4, MOST_PLANES = 32 };
 
 /* Below this sine between an edge and what it is joined with, their plane is not known well enough. */
 #define LEAST_SINE 1e-6
@@ -133,15 +133,9 @@ static void find_bounds(hull *h) {
     }
 }
 
-/* The octagon around a disk. */
 static void surround_disk(hull *h, vec3 center, vec3 axis, double radius) {
-    vec3 first = vec3_perpendicular(axis), second = vec3_cross(axis, first);
-    radius /= cos(PI / ROUND_CORNERS);
-    for (int i = 0; i < ROUND_CORNERS; i++) {
-        double angle = 2 * PI * i / ROUND_CORNERS;
-        h->light[i] = vec3_add_scaled(vec3_add_scaled(center, radius * cos(angle), first), radius * sin(angle), second);
-    }
-    h->light_count = ROUND_CORNERS;
+    shaft_surround_disk(h->light, center, axis, radius);
+    h->light_count = SHAFT_ROUND_CORNERS;
 }
 
 /* The light's own plane bounds the hull: false where the patch is not wholly before it. */
@@ -173,9 +167,9 @@ static bool take_sphere(hull *h, const shape *light) {
     if (!(span_of_patch(h, axis, center).low > radius + 4 * h->near))
         return false;
     surround_disk(h, vec3_add_scaled(center, -radius, axis), axis, radius);
-    for (int i = 0; i < ROUND_CORNERS; i++)
-        h->light[ROUND_CORNERS + i] = vec3_add_scaled(h->light[i], 2 * radius, axis);
-    h->light_count = 2 * ROUND_CORNERS;
+    for (int i = 0; i < SHAFT_ROUND_CORNERS; i++)
+        h->light[SHAFT_ROUND_CORNERS + i] = vec3_add_scaled(h->light[i], 2 * radius, axis);
+    h->light_count = 2 * SHAFT_ROUND_CORNERS;
     h->ball_center = center;
     h->ball_radius = radius;
     return true;
@@ -239,22 +233,17 @@ static bool make_hull(hull *h, const geometry *g, const geometry_patch *patch) {
     return true;
 }
 
-typedef enum place_of_box { OUTSIDE, ACROSS, INSIDE } place_of_box;
-
-static place_of_box find_box(const hull *h, const shaft_node *n) {
-    if (n->upper.x < h->lower.x || n->lower.x > h->upper.x || n->upper.y < h->lower.y || n->lower.y > h->upper.y ||
-        n->upper.z < h->lower.z || n->lower.z > h->upper.z)
-        return OUTSIDE;
-    vec3 half = vec3_scale(0.5, vec3_subtract(n->upper, n->lower)), center = vec3_add(n->lower, half);
-    place_of_box where = INSIDE;
+static shaft_place find_box(const hull *h, const shaft_node *n) {
+    if (shaft_box_is_beside(n, h->lower, h->upper))
+        return SHAFT_OUTSIDE;
+    shaft_place where = SHAFT_INSIDE;
     for (int i = 0; i < h->plane_count; i++) {
-        const plane *p = &h->planes[i];
-        double reach = fabs(p->normal.x) * half.x + fabs(p->normal.y) * half.y + fabs(p->normal.z) * half.z;
-        double height = vec3_dot(p->normal, vec3_subtract(center, p->point));
-        if (height + reach < 0)
-            return OUTSIDE;
-        if (height - reach <= 0)
-            where = ACROSS;
+        shaft_box b = shaft_box_from(n, h->planes[i].point);
+        shaft_span over = shaft_box_span(&b, h->planes[i].normal);
+        if (over.high < 0)
+            return SHAFT_OUTSIDE;
+        if (over.low <= 0)
+            where = SHAFT_ACROSS;
     }
     return where;
 }
@@ -322,8 +311,8 @@ static geometry_visibility meet_shape(const hull *h, int surface) {
     double uneven = body->kind == SHAPE_POLYGON ? unevenness(body) : 0;
     plane own;
     bool flat = plane_of(body, &own), even = uneven <= tolerance;
-    if (!even) /* as in geometry/shaft_body.c */
-        slack = -(256 * GEOMETRY_FLOAT_ERROR / scene->scale + 2 * uneven);
+    if (!even)
+        slack = -shaft_slack(h->geometry, uneven);
     /* Its front is hit in place of an earlier light's where they coincide. */
     bool rival = body->shines && surface > h->patch->light &&
                  !(flat && even && span_of_patch(h, own.normal, own.point).high <= 0);
@@ -356,13 +345,13 @@ static geometry_visibility look_through(const hull *h, const shaft_tree *tree) {
         const shaft_node *n = &tree->nodes[stack[--height]];
         if (--budget < 0)
             return GEOMETRY_MIXED;
-        place_of_box where = find_box(h, n);
-        if (where == OUTSIDE || (mixed && n->count > 1))
+        shaft_place where = find_box(h, n);
+        if (where == SHAFT_OUTSIDE || (mixed && n->count > 1))
             continue;
         geometry_visibility found = GEOMETRY_CLEAR;
         if (n->count > 0) {
             found = meet_leaf(h, tree, n);
-        } else if (where == INSIDE) {
+        } else if (where == SHAFT_INSIDE) {
             found = GEOMETRY_MIXED;
         } else {
             stack[height++] = n->first;

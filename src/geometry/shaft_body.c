@@ -105,12 +105,15 @@ static bool face_closes(const shaft *s, const face *f) {
     return true;
 }
 
+double shaft_slack(const geometry *g, double uneven) {
+    return 256 * GEOMETRY_FLOAT_ERROR / g->trees[0].scale + 2 * uneven;
+}
+
 static void find_slack(const shaft *s, const geometry *g, face *f) {
     double uneven = 0;
     for (int i = 0; i < f->count; i++)
         uneven = double_max(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
-    /* Candidates for a ray come from corners and in single precision, distances from the plane: both must keep off. */
-    f->slack = uneven <= s->tolerance ? 0 : 256 * GEOMETRY_FLOAT_ERROR / g->trees[0].scale + 2 * uneven;
+    f->slack = uneven <= s->tolerance ? 0 : shaft_slack(g, uneven);
 }
 
 static geometry_visibility meet_face(const shaft *s, const geometry *g, face *f) {
