@@ -249,7 +249,7 @@ static shaft_place find_box(const hull *h, const shaft_node *n) {
 }
 
 /* Patch and light are on the same side of a flat body's plane. */
-static bool plane_is_beside(const hull *h, const plane *body, double tolerance, bool rival) {
+static bool plane_is_beside(const hull *h, const shape_plane *body, double tolerance, bool rival) {
     shaft_span patch = span_of_patch(h, body->normal, body->point), light = span_of_light(h, body->normal, body->point);
     double margin = h->far ? 0 : rival ? 2 * h->near : -tolerance;
     return (patch.low >= -tolerance && light.low >= margin) || (patch.high <= tolerance && light.high <= -margin);
@@ -294,14 +294,6 @@ static bool polygon_closes(const hull *h, const shape *body) {
     return true;
 }
 
-static bool plane_of(const shape *body, plane *p) {
-    if (body->kind != SHAPE_POLYGON && body->kind != SHAPE_RING)
-        return false;
-    *p = body->kind == SHAPE_POLYGON ? (plane){.normal = body->polygon.normal, .point = body->polygon.center}
-                                     : (plane){.normal = body->ring.normal, .point = body->ring.center};
-    return true;
-}
-
 static geometry_visibility meet_shape(const hull *h, int surface) {
     const geometry_tree *scene = &h->geometry->trees[0];
     const shape *body = &scene->shapes[surface];
@@ -309,14 +301,14 @@ static geometry_visibility meet_shape(const hull *h, int surface) {
         return GEOMETRY_CLEAR;
     double tolerance = shaft_tolerance(h->size, scene->reach[surface]), slack = tolerance;
     double uneven = body->kind == SHAPE_POLYGON ? unevenness(body) : 0;
-    plane own;
-    bool flat = plane_of(body, &own), even = uneven <= tolerance;
+    bool even = uneven <= tolerance, flat = even && shape_is_flat(body);
+    const shape_plane own = flat ? shape_plane_of(body) : (shape_plane){.normal = {0, 0, 0}};
     if (!even)
         slack = -shaft_slack(h->geometry, uneven);
     /* Its front is hit in place of an earlier light's where they coincide. */
     bool rival = body->shines && surface > h->patch->light &&
-                 !(flat && even && span_of_patch(h, own.normal, own.point).high <= 0);
-    if (flat && even && plane_is_beside(h, &own, tolerance, rival))
+                 !(flat && span_of_patch(h, own.normal, own.point).high <= 0);
+    if (flat && plane_is_beside(h, &own, tolerance, rival))
         return GEOMETRY_CLEAR;
     for (int i = 0; i < h->plane_count; i++) {
         const plane *p = &h->planes[i];

@@ -165,8 +165,7 @@ geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *s
 /* A surface that the point is on and which curves away below its horizon does not stand above it. */
 static bool shape_is_above(const geometry *g, int surface, vec3 point, vec3 normal, int64_t from) {
     const shape *s = &g->trees[0].shapes[surface];
-    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    return !s->shines && !(surface == from && flat) &&
+    return !s->shines && !(surface == from && shape_is_flat(s)) &&
            shaft_reach_of(s, point, normal) > shaft_tolerance(vec3_max_abs(point), g->trees[0].reach[surface]);
 }
 

@@ -288,7 +288,7 @@ static geometry_visibility meet_shape(shaft *s, const geometry *g, int surface, 
     double light = s->sight->light < 0 ? 0 : g->trees[0].reach[s->sight->light];
     *budget -= TEST_WORTH;
     s->tolerance = shaft_tolerance(vec3_max_abs(s->sight->point), double_max(light, g->trees[0].reach[surface]));
-    if (surface == s->sight->light || (left && (body->kind == SHAPE_POLYGON || body->kind == SHAPE_RING)))
+    if (surface == s->sight->light || (left && shape_is_flat(body)))
         return GEOMETRY_CLEAR;
     switch (body->kind) {
     case SHAPE_POLYGON:

@@ -73,10 +73,9 @@ void scene_shapes_free(scene_shapes *made) {
 /* A flat surface across its own orientation vector: told here, once, for no ray could tell it. */
 static void check_orientation(const scene_builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
-    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->kind != SCENE_REFLECTOR || !material->reflector.has_orientation)
+    if (!shape_is_flat(s) || material->kind != SCENE_REFLECTOR || !material->reflector.has_orientation)
         return;
-    vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
+    const vec3 normal = shape_plane_of(s).normal;
     graze_surface probe;
     int illegal = 0;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, &illegal);
