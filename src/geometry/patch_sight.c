@@ -306,8 +306,8 @@ static geometry_visibility meet_shape(const hull *h, int surface) {
     if (!even)
         slack = -shaft_slack(h->geometry, uneven);
     /* Its front is hit in place of an earlier light's where they coincide. */
-    bool rival = body->shines && surface > h->patch->light &&
-                 !(flat && span_of_patch(h, own.normal, own.point).high <= 0);
+    bool rival =
+        body->shines && surface > h->patch->light && !(flat && span_of_patch(h, own.normal, own.point).high <= 0);
     if (flat && plane_is_beside(h, &own, tolerance, rival))
         return GEOMETRY_CLEAR;
     for (int i = 0; i < h->plane_count; i++) {
