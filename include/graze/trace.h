@@ -119,8 +119,8 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  * are, and nothing else could be reflected, one path answers. Of other lights, what the samples find corrects the
  * integral, which counts as far as the other half finds no shadows.
  *
- * Where up to 8 spheres of the scene's own are mirrors or have narrow lobes, and there are up to 4 lights, the first two
- * diffuse reflections of a path go to where these show lights more often than by chance, and count the less for it:
+ * Where up to 8 spheres of the scene's own are mirrors or have narrow lobes, and there are up to 4 lights, the first
+ * two diffuse reflections of a path go to where these show lights more often than by chance, and count the less for it:
  * answers beside such spheres are better, not other.
  *
  * The standard error is estimated from what the samples found: how the means of neighbouring blocks of 1, 2, 4 ...
