@@ -74,13 +74,13 @@ static void note_mirror(scene_builder *b, int index) {
 
 /* Surfaces of mist are not met: they tell where it is. */
 static void add_bound(scene_builder *b, mist_material *mist, const shape *bound) {
-    shape *grown = realloc(mist->bounds, (mist->bound_count + 1) * sizeof *grown);
+    shape *grown = realloc(mist->own, (mist->own_count + 1) * sizeof *grown);
     if (!grown) {
         scene_fail(b, report_out_of_memory(b->report));
         return;
     }
-    mist->bounds = grown;
-    mist->bounds[mist->bound_count++] = *bound;
+    mist->own = grown;
+    mist->own[mist->own_count++] = *bound;
 }
 
 static void add_shape(scene_builder *b, const scene_shapes *made, size_t number) {
