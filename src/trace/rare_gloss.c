@@ -82,9 +82,8 @@ static bool body_is_lit(const path *p, const vertex *v, const light_sample *samp
 
 /* The light as its middle shows it, if it is rare there and may be reflected by gloss. */
 static bool look_at_light(const path *p, const vertex *v, int index, light_sample *sample) {
-    static const double middle[2] = {0.5, 0.5};
     const scene_light *light = &p->context->scene->lights[index];
-    *sample = light_draw(p->context->scene, v->point, p->length, index, middle);
+    *sample = light_draw_middle(p->context->scene, v->point, p->length, index);
     if (sample->light < 0 || !is_rare(v, false, sample->density) || rgb_is_black(sample->radiance))
         return false;
     light_role role = light_role_at(light, sample->distance);
