@@ -117,10 +117,11 @@ GRAZE_API void graze_cast(const graze_scene *scene, const graze_trace_settings *
  * What unshadowed lights throw directly on the first point that is no mirror is integrated rather than sampled
  * (graze/brdf_light.h). A light that is found to be seen wholly from there, or not at all, is not sampled; where all
  * are, and nothing else could be reflected, one path answers. Of other lights, what the samples find corrects the
- * integral, which counts as far as the other half finds no shadows.
+ * integral, which counts as far as the other half finds no shadows. At later points, and of a single sample, only the
+ * diffuse term is integrated, where all of a part of a large polygon sees the whole light.
  *
- * Where up to 8 spheres of the scene's own are mirrors or have narrow lobes, and there are up to 4 lights, the first two
- * diffuse reflections of a path go to where these show lights more often than by chance, and count the less for it:
+ * Where up to 8 spheres of the scene's own are mirrors or have narrow lobes, and there are up to 4 lights, the first
+ * two diffuse reflections of a path go to where these show lights more often than by chance, and count the less for it:
  * answers beside such spheres are better, not other.
  *
  * The standard error is estimated from what the samples found: how the means of neighbouring blocks of 1, 2, 4 ...

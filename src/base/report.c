@@ -179,3 +179,13 @@ void report_warning(const graze_report *report, const place *where, const char *
     report_list(report, GRAZE_WARNING, where, NULL, format, arguments);
     va_end(arguments);
 }
+
+static void raise_flag(void *user, graze_severity severity, const char *message) {
+    (void)severity;
+    (void)message;
+    *(bool *)user = true;
+}
+
+graze_report report_to_flag(bool *said_something) {
+    return (graze_report){raise_flag, said_something};
+}

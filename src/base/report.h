@@ -2,6 +2,7 @@
 #ifndef BASE_REPORT_H
 #define BASE_REPORT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "graze/error.h"
@@ -32,6 +33,9 @@ graze_status report_out_of_memory(const graze_report *report);
 graze_status report_out_of_memory_at(const graze_report *report, const place *where);
 void report_warning(const graze_report *report, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* Passes nothing on, but makes the flag true where there is something to report. */
+graze_report report_to_flag(bool *said_something);
 
 /* clang's static analyzer sees one file at a time, and would follow paths on which these return GRAZE_OK. */
 #ifdef __clang_analyzer__

@@ -115,6 +115,9 @@ static inline rgb rgb_share(rgb part, rgb whole) {
 static inline rgb rgb_scale(double s, rgb a) {
     return (rgb){s * a.r, s * a.g, s * a.b};
 }
+static inline rgb rgb_power(rgb a, double exponent) {
+    return (rgb){pow(a.r, exponent), pow(a.g, exponent), pow(a.b, exponent)};
+}
 /* a + s b */
 static inline rgb rgb_add_scaled(rgb a, double s, rgb b) {
     return (rgb){a.r + s * b.r, a.g + s * b.g, a.b + s * b.b};

@@ -11,7 +11,7 @@
 #define TESTS       160
 #define TESTS_MIXED 16
 
-enum { PATCH_CORNERS = 4, ROUND_CORNERS = 8, MOST_PLANES = 32 };
+enum { PATCH_CORNERS = 4, MOST_PLANES = 32 };
 
 /* Below this sine between an edge and what it is joined with, their plane is not known well enough. */
 #define LEAST_SINE 1e-6
@@ -137,15 +137,9 @@ static void find_bounds(hull *h) {
     h->upper = vec3_add(h->upper, slack);
 }
 
-/* The octagon around a disk. */
 static void surround_disk(hull *h, vec3 center, vec3 axis, double radius) {
-    vec3 first = vec3_perpendicular(axis), second = vec3_cross(axis, first);
-    radius /= cos(PI / ROUND_CORNERS);
-    for (int i = 0; i < ROUND_CORNERS; i++) {
-        double angle = 2 * PI * i / ROUND_CORNERS;
-        h->light[i] = vec3_add_scaled(vec3_add_scaled(center, radius * cos(angle), first), radius * sin(angle), second);
-    }
-    h->light_count = ROUND_CORNERS;
+    shaft_surround_disk(h->light, center, axis, radius);
+    h->light_count = SHAFT_ROUND_CORNERS;
 }
 
 /* The light's own plane bounds the hull: false where the patch is not wholly before it. */
@@ -177,9 +171,9 @@ static bool take_sphere(hull *h, const shape *light) {
     if (!(span_of_patch(h, axis, center).low > radius + 4 * h->near))
         return false;
     surround_disk(h, vec3_add_scaled(center, -radius, axis), axis, radius);
-    for (int i = 0; i < ROUND_CORNERS; i++)
-        h->light[ROUND_CORNERS + i] = vec3_add_scaled(h->light[i], 2 * radius, axis);
-    h->light_count = 2 * ROUND_CORNERS;
+    for (int i = 0; i < SHAFT_ROUND_CORNERS; i++)
+        h->light[SHAFT_ROUND_CORNERS + i] = vec3_add_scaled(h->light[i], 2 * radius, axis);
+    h->light_count = 2 * SHAFT_ROUND_CORNERS;
     h->ball_center = center;
     h->ball_radius = radius;
     return true;
@@ -243,28 +237,24 @@ static bool make_hull(hull *h, const geometry *g, const geometry_patch *patch) {
     return true;
 }
 
-typedef enum place_of_box { OUTSIDE, ACROSS, INSIDE } place_of_box;
-
-static place_of_box find_box(const hull *h, const shaft_node *n) {
-    if (n->upper.x < h->lower.x || n->lower.x > h->upper.x || n->upper.y < h->lower.y || n->lower.y > h->upper.y ||
-        n->upper.z < h->lower.z || n->lower.z > h->upper.z)
-        return OUTSIDE;
-    vec3 half = vec3_scale(0.5, vec3_subtract(n->upper, n->lower)), center = vec3_add(n->lower, half);
-    place_of_box where = INSIDE;
+static shaft_place find_box(const hull *h, const shaft_node *n) {
+    if (shaft_box_is_beside(n, h->lower, h->upper))
+        return SHAFT_OUTSIDE;
+    shaft_place where = SHAFT_INSIDE;
     for (int i = 0; i < h->plane_count; i++) {
         const plane *p = &h->planes[i];
-        double reach = fabs(p->normal.x) * half.x + fabs(p->normal.y) * half.y + fabs(p->normal.z) * half.z;
-        double height = vec3_dot(p->normal, vec3_subtract(center, p->point));
-        if (height + reach < (p->front ? -2 * h->near : 0))
-            return OUTSIDE;
-        if (height - reach <= 0)
-            where = ACROSS;
+        shaft_box b = shaft_box_from(n, p->point);
+        shaft_span over = shaft_box_span(&b, p->normal);
+        if (over.high < (p->front ? -2 * h->near : 0))
+            return SHAFT_OUTSIDE;
+        if (over.low <= 0)
+            where = SHAFT_ACROSS;
     }
     return where;
 }
 
 /* Patch and light are on the same side of a flat body's plane. */
-static bool plane_is_beside(const hull *h, const plane *body, double tolerance, bool rival) {
+static bool plane_is_beside(const hull *h, const shape_plane *body, double tolerance, bool rival) {
     shaft_span patch = span_of_patch(h, body->normal, body->point), light = span_of_light(h, body->normal, body->point);
     double margin = h->far ? 0 : rival ? 2 * h->near : -tolerance;
     return (patch.low >= -tolerance && light.low >= margin) || (patch.high <= tolerance && light.high <= -margin);
@@ -309,14 +299,6 @@ static bool polygon_closes(const hull *h, const shape *body) {
     return true;
 }
 
-static bool plane_of(const shape *body, plane *p) {
-    if (body->kind != SHAPE_POLYGON && body->kind != SHAPE_RING)
-        return false;
-    *p = body->kind == SHAPE_POLYGON ? (plane){.normal = body->polygon.normal, .point = body->polygon.center}
-                                     : (plane){.normal = body->ring.normal, .point = body->ring.center};
-    return true;
-}
-
 static geometry_visibility meet_shape(const hull *h, int surface) {
     const geometry_tree *scene = &h->geometry->trees[0];
     const shape *body = &scene->shapes[surface];
@@ -324,14 +306,14 @@ static geometry_visibility meet_shape(const hull *h, int surface) {
         return GEOMETRY_CLEAR;
     double tolerance = shaft_tolerance(h->size, scene->reach[surface]), slack = tolerance;
     double uneven = body->kind == SHAPE_POLYGON ? unevenness(body) : 0;
-    plane own;
-    bool flat = plane_of(body, &own), even = uneven <= tolerance;
-    if (!even) /* as in geometry/shaft_body.c */
-        slack = -(256 * GEOMETRY_FLOAT_ERROR / scene->scale + 2 * uneven);
+    bool even = uneven <= tolerance, flat = even && shape_is_flat(body);
+    const shape_plane own = flat ? shape_plane_of(body) : (shape_plane){.normal = {0, 0, 0}};
+    if (!even)
+        slack = -shaft_slack(h->geometry, uneven);
     /* Its front is hit in place of an earlier light's where they coincide. */
-    bool rival = body->shines && surface > h->patch->light &&
-                 !(flat && even && span_of_patch(h, own.normal, own.point).high <= 0);
-    if (flat && even && plane_is_beside(h, &own, tolerance, rival))
+    bool rival =
+        body->shines && surface > h->patch->light && !(flat && span_of_patch(h, own.normal, own.point).high <= 0);
+    if (flat && plane_is_beside(h, &own, tolerance, rival))
         return GEOMETRY_CLEAR;
     for (int i = 0; i < h->plane_count; i++) {
         const plane *p = &h->planes[i];
@@ -360,13 +342,13 @@ static geometry_visibility look_through(const hull *h, const shaft_tree *tree) {
         const shaft_node *n = &tree->nodes[stack[--height]];
         if (--budget < 0)
             return GEOMETRY_MIXED;
-        place_of_box where = find_box(h, n);
-        if (where == OUTSIDE || (mixed && n->count > 1))
+        shaft_place where = find_box(h, n);
+        if (where == SHAFT_OUTSIDE || (mixed && n->count > 1))
             continue;
         geometry_visibility found = GEOMETRY_CLEAR;
         if (n->count > 0) {
             found = meet_leaf(h, tree, n);
-        } else if (where == INSIDE) {
+        } else if (where == SHAFT_INSIDE) {
             found = GEOMETRY_MIXED;
         } else {
             stack[height++] = n->first;

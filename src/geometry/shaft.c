@@ -49,45 +49,21 @@ graze_status geometry_prepare_sights(geometry *g, const graze_report *report) {
     return built ? GRAZE_OK : report_out_of_memory(report);
 }
 
-static bool box_is_beside(const shaft *s, const shaft_node *n) {
-    return n->upper.x < s->lower.x || n->lower.x > s->upper.x || n->upper.y < s->lower.y || n->lower.y > s->upper.y ||
-           n->upper.z < s->lower.z || n->lower.z > s->upper.z;
-}
-
-/* A box, from a point. */
-typedef struct box {
-    vec3 center, half;
-} box;
-
-static inline box box_from(const shaft_node *n, vec3 point) {
-    vec3 half = vec3_scale(0.5, vec3_subtract(n->upper, n->lower));
-    return (box){vec3_subtract(vec3_add(n->lower, half), point), half};
-}
-
-/* How far a box reaches along a vector. */
-static inline shaft_span box_span(const box *b, vec3 along) {
-    double middle = vec3_dot(along, b->center);
-    double reach = fabs(along.x) * b->half.x + fabs(along.y) * b->half.y + fabs(along.z) * b->half.z;
-    return (shaft_span){middle - reach, middle + reach};
-}
-
-typedef enum place_of_box { OUTSIDE, ACROSS, INSIDE } place_of_box;
-
 /* Where a box stands with respect to the shaft; and how far its middle is inside of the nearest side. */
-static place_of_box find_box(const shaft *s, const shaft_node *n, double *depth) {
-    box b = box_from(n, s->sight->point);
-    shaft_span over = box_span(&b, s->sight->normal), before = box_span(&b, s->base);
+static shaft_place find_box(const shaft *s, const shaft_node *n, double *depth) {
+    shaft_box b = shaft_box_from(n, s->sight->point);
+    shaft_span over = shaft_box_span(&b, s->sight->normal), before = shaft_box_span(&b, s->base);
     if (over.high <= 0 || before.high + s->base_height < -2 * s->near)
-        return OUTSIDE;
+        return SHAFT_OUTSIDE;
     bool inside = over.low > 0 && before.low + s->base_height > 0;
     for (int i = 0; i < s->side_count; i++) {
-        shaft_span span = box_span(&b, s->sides[i]);
+        shaft_span span = shaft_box_span(&b, s->sides[i]);
         if (span.high <= 0)
-            return OUTSIDE;
+            return SHAFT_OUTSIDE;
         inside = inside && span.low > 0;
         *depth = double_min(*depth, span.low + span.high);
     }
-    return inside ? INSIDE : ACROSS;
+    return inside ? SHAFT_INSIDE : SHAFT_ACROSS;
 }
 
 /* The first of a leaf's shapes that is in the way tells for all: where there are several, they are small. */
@@ -104,7 +80,7 @@ static geometry_visibility meet_copies(shaft *s, const geometry *g, const shaft_
         const vec3 *corners = g->copied_boxes[g->copied_sights.order[leaf->first + i]].polygon.vertices;
         shaft_node around = {.lower = corners[0], .upper = corners[1]};
         double depth = 0;
-        if (!box_is_beside(s, &around) && find_box(s, &around, &depth) != OUTSIDE)
+        if (!shaft_box_is_beside(&around, s->lower, s->upper) && find_box(s, &around, &depth) != SHAFT_OUTSIDE)
             return GEOMETRY_MIXED;
     }
     return GEOMETRY_CLEAR;
@@ -128,13 +104,13 @@ static void meet_something(visit *v) {
 static double put_down(visit *v, const shaft *s, uint32_t index) {
     const shaft_node *n = &v->tree->nodes[index];
     double depth = INFINITY;
-    if (box_is_beside(s, n))
+    if (shaft_box_is_beside(n, s->lower, s->upper))
         return depth;
     v->budget--;
-    place_of_box where = n->count == 1 ? ACROSS : find_box(s, n, &depth);
-    if (where == INSIDE)
+    shaft_place where = n->count == 1 ? SHAFT_ACROSS : find_box(s, n, &depth);
+    if (where == SHAFT_INSIDE)
         meet_something(v);
-    if (where == ACROSS)
+    if (where == SHAFT_ACROSS)
         v->node[v->count++] = index;
     return depth;
 }
@@ -189,8 +165,7 @@ geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *s
 /* A surface that the point is on and which curves away below its horizon does not stand above it. */
 static bool shape_is_above(const geometry *g, int surface, vec3 point, vec3 normal, int64_t from) {
     const shape *s = &g->trees[0].shapes[surface];
-    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    return !s->shines && !(surface == from && flat) &&
+    return !s->shines && !(surface == from && shape_is_flat(s)) &&
            shaft_reach_of(s, point, normal) > shaft_tolerance(vec3_max_abs(point), g->trees[0].reach[surface]);
 }
 
@@ -214,8 +189,8 @@ static bool reflects_above(const geometry *g, const shaft_tree *tree, vec3 point
             continue;
         if (budget <= 0)
             return true;
-        box b = box_from(n, point);
-        if (box_span(&b, normal).high <= 0)
+        shaft_box b = shaft_box_from(n, point);
+        if (shaft_box_span(&b, normal).high <= 0)
             continue;
         if (n->count == 0) {
             stack[height++] = n->first;

@@ -105,12 +105,15 @@ static bool face_closes(const shaft *s, const face *f) {
     return true;
 }
 
+double shaft_slack(const geometry *g, double uneven) {
+    return 256 * GEOMETRY_FLOAT_ERROR / g->trees[0].scale + 2 * uneven;
+}
+
 static void find_slack(const shaft *s, const geometry *g, face *f) {
     double uneven = 0;
     for (int i = 0; i < f->count; i++)
         uneven = double_max(uneven, fabs(vec3_dot(f->normal, f->corners[i]) + f->height));
-    /* Candidates for a ray come from corners and in single precision, distances from the plane: both must keep off. */
-    f->slack = uneven <= s->tolerance ? 0 : 256 * GEOMETRY_FLOAT_ERROR / g->trees[0].scale + 2 * uneven;
+    f->slack = uneven <= s->tolerance ? 0 : shaft_slack(g, uneven);
 }
 
 static geometry_visibility meet_face(const shaft *s, const geometry *g, face *f) {
@@ -285,7 +288,7 @@ static geometry_visibility meet_shape(shaft *s, const geometry *g, int surface, 
     double light = s->sight->light < 0 ? 0 : g->trees[0].reach[s->sight->light];
     *budget -= TEST_WORTH;
     s->tolerance = shaft_tolerance(vec3_max_abs(s->sight->point), double_max(light, g->trees[0].reach[surface]));
-    if (surface == s->sight->light || (left && (body->kind == SHAPE_POLYGON || body->kind == SHAPE_RING)))
+    if (surface == s->sight->light || (left && shape_is_flat(body)))
         return GEOMETRY_CLEAR;
     switch (body->kind) {
     case SHAPE_POLYGON:

@@ -45,8 +45,42 @@ typedef struct shaft_span {
     double low, high;
 } shaft_span;
 
+/* A box, from a point. */
+typedef struct shaft_box {
+    vec3 center, half;
+} shaft_box;
+
+static inline shaft_box shaft_box_from(const shaft_node *n, vec3 point) {
+    vec3 half = vec3_scale(0.5, vec3_subtract(n->upper, n->lower));
+    return (shaft_box){vec3_subtract(vec3_add(n->lower, half), point), half};
+}
+
+/* How far a box reaches along a vector. */
+static inline shaft_span shaft_box_span(const shaft_box *b, vec3 along) {
+    double middle = vec3_dot(along, b->center);
+    double reach = fabs(along.x) * b->half.x + fabs(along.y) * b->half.y + fabs(along.z) * b->half.z;
+    return (shaft_span){middle - reach, middle + reach};
+}
+
+/* Whether a box has nothing in common with these bounds. */
+static inline bool shaft_box_is_beside(const shaft_node *n, vec3 lower, vec3 upper) {
+    return n->upper.x < lower.x || n->lower.x > upper.x || n->upper.y < lower.y || n->lower.y > upper.y ||
+           n->upper.z < lower.z || n->lower.z > upper.z;
+}
+
+/* Where a box stands with respect to a convex region. */
+typedef enum shaft_place { SHAFT_OUTSIDE, SHAFT_ACROSS, SHAFT_INSIDE } shaft_place;
+
+/* The corners of the polygon around a disk. */
+#define SHAFT_ROUND_CORNERS 8
+void shaft_surround_disk(vec3 corners[SHAFT_ROUND_CORNERS], vec3 center, vec3 axis, double radius);
+
 /* What is no farther apart than this touches, of points and surfaces with such largest coordinates: their roundings. */
 double shaft_tolerance(double point, double surface);
+
+/* So far a polygon must keep off whose corners lie up to `uneven` beside its plane: candidates for a ray come from
+ * corners and in single precision, distances from the plane. */
+double shaft_slack(const geometry *, double uneven);
 
 /* The reach of the light along a vector: of products with it. */
 shaft_span shaft_light_span(const shaft *, vec3 along);

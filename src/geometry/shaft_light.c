@@ -5,9 +5,6 @@
 #include "geometry/geometry_internal.h"
 #include "geometry/shaft_internal.h"
 
-/* Corners of the polygon around a disk. */
-#define ROUND_CORNERS 8
-
 /* Below this sine between the rays to two corners, the plane through them is not known well enough. */
 #define LEAST_SINE 1e-9
 
@@ -72,17 +69,20 @@ static void add_sides(shaft *s) {
     }
 }
 
-/* The polygon around the disk. */
-static void surround_disk(shaft *s) {
-    vec3 first = vec3_perpendicular(s->axis), second = vec3_cross(s->axis, first);
-    double radius = s->radius / cos(PI / ROUND_CORNERS);
+void shaft_surround_disk(vec3 corners[SHAFT_ROUND_CORNERS], vec3 center, vec3 axis, double radius) {
+    vec3 first = vec3_perpendicular(axis), second = vec3_cross(axis, first);
+    double far = radius / cos(PI / SHAFT_ROUND_CORNERS);
     const double half = sqrt(0.5);
-    const double cosines[ROUND_CORNERS] = {1, half, 0, -half, -1, -half, 0, half};
-    for (int i = 0; i < ROUND_CORNERS; i++) {
-        double cosine = cosines[i], sine = cosines[(i + ROUND_CORNERS - 2) % ROUND_CORNERS];
-        s->corners[i] = vec3_add_scaled(vec3_add_scaled(s->center, radius * cosine, first), radius * sine, second);
+    const double cosines[SHAFT_ROUND_CORNERS] = {1, half, 0, -half, -1, -half, 0, half};
+    for (int i = 0; i < SHAFT_ROUND_CORNERS; i++) {
+        double cosine = cosines[i], sine = cosines[(i + SHAFT_ROUND_CORNERS - 2) % SHAFT_ROUND_CORNERS];
+        corners[i] = vec3_add_scaled(vec3_add_scaled(center, far * cosine, first), far * sine, second);
     }
-    s->corner_count = ROUND_CORNERS;
+}
+
+static void surround_disk(shaft *s) {
+    shaft_surround_disk(s->corners, s->center, s->axis, s->radius);
+    s->corner_count = SHAFT_ROUND_CORNERS;
     s->round = true;
 }
 

@@ -56,6 +56,21 @@ typedef struct shape {
     };
 } shape;
 
+/* Its front is on the side of the unit normal. */
+typedef struct shape_plane {
+    vec3 normal, point;
+} shape_plane;
+
+static inline bool shape_is_flat(const shape *s) {
+    return s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
+}
+
+/* The plane of a flat shape. */
+static inline shape_plane shape_plane_of(const shape *s) {
+    return s->kind == SHAPE_POLYGON ? (shape_plane){s->polygon.normal, s->polygon.center}
+                                    : (shape_plane){s->ring.normal, s->ring.center};
+}
+
 /* Makes the shape of a surface primitive (not source, mesh or instance). Memory comes from the arena; vertices of
  * polygons stay where they are, among the primitive's reals. Checks arguments
  * as Radiance does: polygons without area, cones without axis, spheres of zero radius and cones or rings of illegal

@@ -23,8 +23,7 @@ static fresnel_pair fresnel(double before, double behind, double index) {
 
 /* A body's own transmittance at the cosine inside. */
 static rgb body_transmittance(rgb transmissivity, double inside) {
-    return (rgb){pow(transmissivity.r, 1 / inside), pow(transmissivity.g, 1 / inside),
-                 pow(transmissivity.b, 1 / inside)};
+    return rgb_power(transmissivity, 1 / inside);
 }
 
 /* The cosine within glass; 0 where that does not refract and is seen edge-on. */
@@ -113,6 +112,5 @@ void material_prepare_mirror(graze_surface *s, const graze_material *m, int behi
 graze_rgb graze_material_attenuation(const graze_material *m, int inside, double distance) {
     if (m->kind != GRAZE_DIELECTRIC)
         return (rgb){1, 1, 1};
-    rgb unit = inside ? m->inside : m->outside;
-    return (rgb){pow(unit.r, distance), pow(unit.g, distance), pow(unit.b, distance)};
+    return rgb_power(inside ? m->inside : m->outside, distance);
 }

@@ -105,12 +105,6 @@ static graze_status begin_piece(void *user, void *chunk, bool *more) {
 
 /* ---- What can be done at once ---- */
 
-static void note(void *user, graze_severity severity, const char *text) {
-    (void)severity;
-    (void)text;
-    ((piece *)user)->said_something = true;
-}
-
 static bool has_room(piece *p) {
     if (p->count < p->capacity)
         return true;
@@ -178,7 +172,7 @@ static graze_status take_piece(void *user, void *chunk) {
 /* ---- All of it ---- */
 
 static bool prepare_piece(piece *p, const rad_source *whole) {
-    *p = (piece){.quiet = {note, p}, .context = *whole->context};
+    *p = (piece){.quiet = report_to_flag(&p->said_something), .context = *whole->context};
     arena *memory = arena_create();
     rad_reader_begin(&p->reader, memory, &p->quiet);
     /* What goes on for long would be read again and again where it is no primitive after all. */

@@ -9,7 +9,7 @@
 /* What reflects less in its lobe is hardly brighter where it shows a light. */
 #define FAINTEST 0.02
 
-/* The lobe as it is seen from above. */
+/* Prepares the surface as it is seen from straight above. */
 static bool mirrors_lights(const graze_scene *scene, size_t surface, graze_surface *seen) {
     const shape *s = &scene->shapes[surface];
     const scene_material *m = scene_material_at(scene, (int64_t)surface);
@@ -19,9 +19,10 @@ static bool mirrors_lights(const graze_scene *scene, size_t surface, graze_surfa
     graze_surface_prepare(seen, &m->reflector, up, up, NULL);
     if (rgb_max(seen->specular) < FAINTEST)
         return false;
-    bool rough =
-        seen->lobe.model < GRAZE_BRDF_MODEL_COUNT && seen->lobe.alpha_x * seen->lobe.alpha_y < ROUGHEST * ROUGHEST;
-    return seen->specular_lobe == GRAZE_LOBE_MIRROR || (seen->specular_lobe == GRAZE_LOBE_GLOSSY && rough);
+    if (seen->specular_lobe == GRAZE_LOBE_MIRROR)
+        return true;
+    return seen->specular_lobe == GRAZE_LOBE_GLOSSY && seen->lobe.model < GRAZE_BRDF_MODEL_COUNT &&
+           seen->lobe.alpha_x * seen->lobe.alpha_y < ROUGHEST * ROUGHEST;
 }
 
 static scene_ball make_ball(const graze_scene *scene, size_t surface, const graze_surface *seen) {

@@ -54,6 +54,11 @@ typedef struct light_sample {
  * [0,1). */
 light_sample light_draw(const graze_scene *, vec3 point, double travelled, int index, const double random[2]);
 
+/* The same towards about its middle: a light as one direction shows it. */
+static inline light_sample light_draw_middle(const graze_scene *scene, vec3 point, double travelled, int index) {
+    return light_draw(scene, point, travelled, index, (const double[2]){0.5, 0.5});
+}
+
 /* The density of light_draw for a direction that meets light `index` at `hit_point` (ignored for sources). */
 double light_density(const graze_scene *, vec3 point, int index, vec3 direction, vec3 hit_point, vec3 hit_normal);
 

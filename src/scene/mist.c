@@ -67,7 +67,7 @@ graze_status scene_mist_make(graze_scene *scene, int threads, const graze_report
         mist_material *m = &mist->of[scene->materials[i].mist];
         status = find_lights(scene, m, &scene->primitives[scene->materials[i].primitive], report);
         if (status == GRAZE_OK)
-            status = scene_bounds_build(&m->around, scene, (int)i, m->bounds, m->bound_count, threads, report);
+            status = scene_bounds_build(&m->bounds, scene, (int)i, m->own, m->own_count, threads, report);
     }
     return status;
 }
@@ -76,8 +76,8 @@ void scene_mist_destroy(scene_mist *mist) {
     if (!mist)
         return;
     for (int i = 0; i < mist->count; i++) {
-        scene_bounds_destroy(&mist->of[i].around);
-        free(mist->of[i].bounds);
+        scene_bounds_destroy(&mist->of[i].bounds);
+        free(mist->of[i].own);
         free(mist->of[i].lights);
     }
     free(mist);
@@ -102,7 +102,7 @@ void mist_walk_begin(mist_walk *w, const graze_scene *scene, const mist_medium *
     w->at = 0;
     w->distance = distance;
     for (int i = 0; w->mist && i < w->mist->count; i++) {
-        const geometry *g = w->mist->of[i].around.geometry;
+        const geometry *g = w->mist->of[i].bounds.geometry;
         const geometry_ray start = {.origin = origin, .direction = direction, .far = GEOMETRY_FAR, .from = -1};
         geometry_ray ahead = start;
         int change;
@@ -145,7 +145,7 @@ static bool cross_boundary(mist_walk *w, double *at, bool *changes) {
         return false;
     bool before = w->of[first].balance > 0;
     w->of[first].balance += w->of[first].change;
-    w->of[first].next += step(w->mist->of[first].around.geometry, &w->of[first].ray, &w->of[first].change);
+    w->of[first].next += step(w->mist->of[first].bounds.geometry, &w->of[first].ray, &w->of[first].change);
     *changes = before != (w->of[first].balance > 0);
     return true;
 }

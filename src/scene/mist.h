@@ -27,9 +27,9 @@ typedef struct mist_material {
     bool has_albedo, has_eccentricity;
     int *lights; /* light_count indices of those that it scatters */
     int light_count;
-    shape *bounds;
-    size_t bound_count;
-    scene_bounds around; /* built of the bounds, and of those in copies */
+    shape *own; /* the scene's own surfaces of it */
+    size_t own_count;
+    scene_bounds bounds; /* built of these, and of those in copies */
 } mist_material;
 
 typedef struct scene_mist {

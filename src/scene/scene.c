@@ -56,10 +56,9 @@ static void add_light(scene_builder *b, scene_light light) {
 static void note_mirror(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
     const scene_material *m = &scene->materials[scene->surfaces[index].material];
-    shape_kind kind = scene->shapes[index].kind;
     if (!scene_material_shows_lights(m))
         return;
-    if (kind != SHAPE_POLYGON && kind != SHAPE_RING) {
+    if (!shape_is_flat(&scene->shapes[index])) {
         scene->has_mirrors = true;
         return;
     }
@@ -75,13 +74,13 @@ static void note_mirror(scene_builder *b, int index) {
 
 /* Surfaces of mist are not met: they tell where it is. */
 static void add_bound(scene_builder *b, mist_material *mist, const shape *bound) {
-    shape *grown = realloc(mist->bounds, (mist->bound_count + 1) * sizeof *grown);
+    shape *grown = realloc(mist->own, (mist->own_count + 1) * sizeof *grown);
     if (!grown) {
         scene_fail(b, report_out_of_memory(b->report));
         return;
     }
-    mist->bounds = grown;
-    mist->bounds[mist->bound_count++] = *bound;
+    mist->own = grown;
+    mist->own[mist->own_count++] = *bound;
 }
 
 static void add_shape(scene_builder *b, const scene_shapes *made, size_t number) {
@@ -279,11 +278,10 @@ static graze_status build_geometry(scene_builder *b) {
     }
     graze_status status = geometry_build(&scene->geometry, groups, count, scene_builder_threads(b), b->report);
     free(groups);
-    if (status == GRAZE_OK && needs_sights(scene))
-        status = geometry_prepare_sights(scene->geometry, b->report);
-    if (status == GRAZE_OK && needs_sights(scene))
-        status = sight_cells_make(scene, b->report);
-    return status;
+    if (status != GRAZE_OK || !needs_sights(scene))
+        return status;
+    status = geometry_prepare_sights(scene->geometry, b->report);
+    return status != GRAZE_OK ? status : sight_cells_make(scene, b->report);
 }
 
 graze_status graze_scene_load(graze_scene **out, const char *const *descriptions, size_t count,

@@ -14,19 +14,13 @@ typedef struct workshop {
     arena **memory; /* by worker */
 } workshop;
 
-static void note(void *user, graze_severity severity, const char *text) {
-    (void)severity;
-    (void)text;
-    *(bool *)user = true;
-}
-
 static void make_block(void *user, size_t index, int worker) {
     const workshop *w = user;
     scene_shapes *made = w->made;
     size_t end = (index + 1) * BLOCK_SIZE < made->count ? (index + 1) * BLOCK_SIZE : made->count;
     for (size_t i = index * BLOCK_SIZE; i < end; i++) {
         bool said_something = false, degenerate = false;
-        const graze_report quiet = {note, &said_something};
+        const graze_report quiet = report_to_flag(&said_something);
         graze_status status = shape_from_primitive(&made->shapes[i], &degenerate, &made->all[made->primitives[i]],
                                                    w->memory[worker], &quiet);
         made->ready[i] = !status && !degenerate && !said_something;
@@ -73,10 +67,9 @@ void scene_shapes_free(scene_shapes *made) {
 /* A flat surface across its own orientation vector: told here, once, for no ray could tell it. */
 static void check_orientation(const scene_builder *b, const rad_primitive *surface, const shape *s,
                               const scene_material *material) {
-    bool flat = s->kind == SHAPE_POLYGON || s->kind == SHAPE_RING;
-    if (!flat || material->kind != SCENE_REFLECTOR || !material->reflector.has_orientation)
+    if (!shape_is_flat(s) || material->kind != SCENE_REFLECTOR || !material->reflector.has_orientation)
         return;
-    vec3 normal = s->kind == SHAPE_POLYGON ? s->polygon.normal : s->ring.normal;
+    const vec3 normal = shape_plane_of(s).normal;
     graze_surface probe;
     int illegal = 0;
     graze_surface_prepare(&probe, &material->reflector, normal, normal, &illegal);

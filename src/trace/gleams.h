@@ -23,11 +23,11 @@ typedef struct gleam {
 /* What a ball shows. */
 typedef struct gleams_of_ball {
     const scene_ball *ball;
-    vec3 to_middle;        /* from the point */
-    double tangent_square; /* of the distance to where the ball begins to be seen */
-    double share;          /* of all directions, that are drawn for its gleams */
-    bool found;            /* these are known; they share alike what is drawn for each light's: */
-    double lights[SCENE_BALL_LIGHTS_MOST];
+    vec3 to_middle;                        /* from the point */
+    double tangent_square;                 /* of the distance to where the ball begins to be seen */
+    double share;                          /* of all directions, that are drawn for its gleams */
+    bool found;                            /* what follows is known: */
+    double lights[SCENE_BALL_LIGHTS_MOST]; /* which part of the share each light's gleam has */
     gleam of[SCENE_BALL_LIGHTS_MOST];
 } gleams_of_ball;
 

@@ -110,7 +110,8 @@ static void settle(path *p, int light, rgb reflected) {
     p->radiance = rgb_add(p->radiance, reflected);
 }
 
-/* Where only one sample is taken, or few of many are at this point, an integral must cost less than a sample does. */
+/* Adds what the surface reflects of a light that is seen as a whole. For a single sample, or few of many at this
+ * point, only what an integral finds for less than a sample costs: the diffuse term. */
 static void add_at_once(path *p, const vertex *v, int index, bool glossy) {
     const graze_scene *scene = p->context->scene;
     const scene_light *light = &scene->lights[index];
@@ -122,7 +123,8 @@ static void add_at_once(path *p, const vertex *v, int index, bool glossy) {
     settle(p, index, reflected_whole(p, v, light, &whole, false));
 }
 
-/* What takes a look at what stands between the light and this vertex. */
+/* The same where all that can be known of a light is worth its time: looks for what stands between it and the vertex,
+ * if the cell around this does not tell. */
 static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geometry_visibility seen) {
     const scene_light *light = &p->context->scene->lights[i];
     const path_memory_light found = look_at(p, v, i, glossy, seen);

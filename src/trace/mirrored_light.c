@@ -11,25 +11,15 @@
 /* Of more mirrors that show a vertex, one is chosen. */
 #define EVERY_MIRROR 4
 
-/* A plane with its front on the side of the unit normal. */
-typedef struct plane {
-    vec3 normal, point;
-} plane;
-
-static plane plane_of(const shape *s) {
-    return s->kind == SHAPE_POLYGON ? (plane){s->polygon.normal, s->polygon.center}
-                                    : (plane){s->ring.normal, s->ring.center};
-}
-
-static double height_over(const plane *p, vec3 point) {
+static double height_over(const shape_plane *p, vec3 point) {
     return vec3_dot(p->normal, vec3_subtract(point, p->point));
 }
 
-static vec3 mirror_direction(const plane *p, vec3 direction) {
+static vec3 mirror_direction(const shape_plane *p, vec3 direction) {
     return vec3_add_scaled(direction, -2 * vec3_dot(p->normal, direction), p->normal);
 }
 
-static vec3 mirror_point(const plane *p, vec3 point) {
+static vec3 mirror_point(const shape_plane *p, vec3 point) {
     return vec3_add_scaled(point, -2 * height_over(p, point), p->normal);
 }
 
@@ -37,7 +27,7 @@ static vec3 mirror_point(const plane *p, vec3 point) {
  * tells. What paths see it as without reflecting them, only light samples see lights in: whatever the strategy. */
 static bool shows(const path_context *context, int mirror, const vertex *v) {
     const graze_scene *scene = context->scene;
-    const plane p = plane_of(&scene->shapes[mirror]);
+    const shape_plane p = shape_plane_of(&scene->shapes[mirror]);
     if (scene->surfaces[mirror].mirrors && !context_samples_lights(context->settings))
         return false;
     return mirror != v->surface && height_over(&p, v->point) > 0;
@@ -61,7 +51,7 @@ typedef struct image {
     light_choice lights;
 } image;
 
-static void prepare_image(const path *p, const vertex *v, const plane *mirror, int bounced, image *made) {
+static void prepare_image(const path *p, const vertex *v, const shape_plane *mirror, int bounced, image *made) {
     const graze_scene *scene = p->context->scene;
     graze_surface *s = &made->surface;
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
@@ -116,7 +106,7 @@ static rgb color_of(const path *p, const vertex *v, int mirror, double to_mirror
                           .light = -1,
                           .distance = to_mirror,
                           .point = vec3_add_scaled(v->point, to_mirror, direction),
-                          .normal = plane_of(&scene->shapes[mirror]).normal,
+                          .normal = shape_plane_of(&scene->shapes[mirror]).normal,
                           .direction = direction};
     return appearance_reflector(scene, material, &hit, p->length).color;
 }
@@ -125,7 +115,7 @@ static void add_from(path *p, const vertex *v, int mirror, double expectation, c
                      const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
     const shape *s = &scene->shapes[mirror];
-    const plane flat = plane_of(s);
+    const shape_plane flat = shape_plane_of(s);
     image seen;
     prepare_image(p, v, &flat, p->ambient_depth, &seen);
     if (!light_choice_is_possible(&seen.lights))
@@ -183,7 +173,7 @@ void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
 double mirrored_light_density(const path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
     const scattering *last = &p->last;
-    const plane mirror = plane_of(&scene->shapes[last->mirror]);
+    const shape_plane mirror = shape_plane_of(&scene->shapes[last->mirror]);
     int bounced = p->ambient_depth - (last->lobe == GRAZE_LOBE_DIFFUSE);
     image seen;
     if (!shows(p->context, last->mirror, last->vertex))

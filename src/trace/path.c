@@ -155,12 +155,17 @@ static void decide_for_both(const path *p, gathering *here, other_side *beyond) 
     direct_light_prepare_below(p, &here->vertex, beyond);
 }
 
+/* Of no light anything is known at the next vertex, or on its other side. */
+static inline void forget_known_lights(path *p) {
+    p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
+}
+
 /* Light that comes from the other side, of which nothing is known without sampling. */
 static void gather_below(path *p, const vertex *v, const other_side *beyond) {
     known_lights above = p->known;
     rare_gloss gloss = p->gloss;
     p->gloss = rare_gloss_beyond(p, v);
-    p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
+    forget_known_lights(p);
     if (light_choice_is_possible(&beyond->lights) && !p->context->record)
         direct_light_add_below(p, v, &beyond->lights, &beyond->lobes);
     p->known = above;
@@ -233,7 +238,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
             here->lobes = lobes_choose(p, v);
             direct_light_prepare(p, v, &here->lights);
         }
-        p->known.controls = p->known.settled = p->known.watched = p->known.clear = 0;
+        forget_known_lights(p);
         p->gloss = rare_gloss_at(p, v);
         if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
             if (!context->observer && !is_veiled(p))

@@ -122,7 +122,7 @@ static inline bool path_is_in_body(const path *p) {
 }
 
 static inline rgb path_medium_transmittance(const path *p, double distance) {
-    return (rgb){pow(p->medium.r, distance), pow(p->medium.g, distance), pow(p->medium.b, distance)};
+    return rgb_power(p->medium, distance);
 }
 
 /* Whether another diffuse reflection may follow. */

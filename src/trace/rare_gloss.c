@@ -82,9 +82,8 @@ static bool body_is_lit(const path *p, const vertex *v, const light_sample *samp
 
 /* The light as its middle shows it, if it is rare there and may be reflected by gloss. */
 static bool look_at_light(const path *p, const vertex *v, int index, light_sample *sample) {
-    static const double middle[2] = {0.5, 0.5};
     const scene_light *light = &p->context->scene->lights[index];
-    *sample = light_draw(p->context->scene, v->point, p->length, index, middle);
+    *sample = light_draw_middle(p->context->scene, v->point, p->length, index);
     if (sample->light < 0 || !is_rare(v, false, sample->density) || rgb_is_black(sample->radiance))
         return false;
     light_role role = light_role_at(light, sample->distance);
@@ -154,16 +153,13 @@ static bool is_body(shape_kind kind) {
     return kind == SHAPE_SPHERE || kind == SHAPE_CONE;
 }
 
-rare_gloss rare_gloss_at(path *p, const vertex *v) {
+/* Whether it reflects lights by a mirror or a narrow lobe. */
+static bool has_narrow_gloss(const vertex *v) {
     graze_lobe lobe = v->shading.specular_lobe;
-    bool mirror = lobe == GRAZE_LOBE_MIRROR;
-    if (p->ambient_depth > 0 && p->wanted != WANTED_STRAIGHT && is_clear(v) &&
-        context_samples_lights(p->context->settings))
-        return clear_body_at(p, v);
-    if (p->ambient_depth == 0 || p->wanted == WANTED_BENT || (lobe != GRAZE_LOBE_GLOSSY && !mirror) ||
-        !context_samples_lights(p->context->settings) || spread(v, false) >= RARE ||
-        (mirror && is_sampled_mirror(p, v)))
-        return RARE_GLOSS_NONE;
+    return (lobe == GRAZE_LOBE_GLOSSY || lobe == GRAZE_LOBE_MIRROR) && spread(v, false) < RARE;
+}
+
+static rare_gloss narrow_gloss_at(path *p, const vertex *v) {
     const graze_scene *scene = p->context->scene;
     bool few = scene->light_count <= PATH_FEW_LIGHTS;
     if (few && is_body(geometry_find(scene->geometry, v->surface).shape->kind)) {
@@ -171,7 +167,7 @@ rare_gloss rare_gloss_at(path *p, const vertex *v) {
             expect_on_body(p, v, i);
         return RARE_GLOSS_CURVED;
     }
-    if (!mirror)
+    if (v->shading.specular_lobe != GRAZE_LOBE_MIRROR)
         return RARE_GLOSS_FLAT;
     if (few) {
         for (int i = 0; i < (int)scene->light_count; i++)
@@ -181,6 +177,17 @@ rare_gloss rare_gloss_at(path *p, const vertex *v) {
         expect_in_mirror(p, v, (int)(sampler_1d(p->sampler) * count), 1 / count);
     }
     return RARE_GLOSS_MIRROR;
+}
+
+rare_gloss rare_gloss_at(path *p, const vertex *v) {
+    if (p->ambient_depth == 0 || !context_samples_lights(p->context->settings))
+        return RARE_GLOSS_NONE;
+    if (is_clear(v) && p->wanted != WANTED_STRAIGHT)
+        return clear_body_at(p, v);
+    if (p->wanted == WANTED_BENT || !has_narrow_gloss(v) ||
+        (v->shading.specular_lobe == GRAZE_LOBE_MIRROR && is_sampled_mirror(p, v)))
+        return RARE_GLOSS_NONE;
+    return narrow_gloss_at(p, v);
 }
 
 rare_gloss rare_gloss_beyond(const path *p, const vertex *v) {

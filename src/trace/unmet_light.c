@@ -20,10 +20,9 @@ static rgb gloss_share(const gathering *here, const light_sample *sample, rgb va
 
 /* The brightness that a light, taken so many times, would add if nothing hid it, as its middle shows it. */
 static double from_light(const path *p, const gathering *here, int index, double times) {
-    static const double middle[2] = {0.5, 0.5};
     const graze_scene *scene = p->context->scene;
     const vertex *v = &here->vertex;
-    const light_sample sample = light_draw(scene, v->point, p->length, index, middle);
+    const light_sample sample = light_draw_middle(scene, v->point, p->length, index);
     light_role role = sample.light < 0 ? LIGHT_NONE : light_role_at(&scene->lights[index], sample.distance);
     bool ambient = role == LIGHT_AMBIENT;
     if (role == LIGHT_NONE || (ambient && !context_samples_glows(p->context->settings)))

@@ -129,6 +129,11 @@ static void test_discarding_report(void **state) {
     assert_int_equal(report_system_error(NULL, NULL, "x"), GRAZE_SYSTEM_ERROR);
     assert_int_equal(report_out_of_memory(&silent), GRAZE_SYSTEM_ERROR);
     report_warning(&silent, NULL, "x");
+    bool said_something = false;
+    const graze_report noted = report_to_flag(&said_something);
+    assert_false(said_something);
+    report_warning(&noted, NULL, "x");
+    assert_true(said_something);
 }
 
 /* Around the length where the text leaves its first buffer, and far beyond. */

@@ -37,10 +37,6 @@ static bool roll_point(const world *w, dice *d, const geometry_patch *patch, geo
     return true;
 }
 
-typedef struct score {
-    int seen, known_seen, hidden, known_hidden;
-} score;
-
 enum { POINTS = 12, RAYS = 12 };
 
 static void check_patch(const world *w, dice *d, const geometry_patch *patch, geometry_sight *sight, score *sum) {
@@ -59,10 +55,7 @@ static void check_patch(const world *w, dice *d, const geometry_patch *patch, ge
     }
     if (all.rays < POINTS * RAYS / 2)
         return;
-    sum->seen += all.stopped == 0;
-    sum->known_seen += all.stopped == 0 && found == GEOMETRY_CLEAR;
-    sum->hidden += all.stopped == all.rays;
-    sum->known_hidden += all.stopped == all.rays && found == GEOMETRY_BLOCKED;
+    keep_score(sum, all, found);
 }
 
 static void check_world(world *w, dice *d, int queries, score *sum) {
@@ -80,20 +73,13 @@ static void check_world(world *w, dice *d, int queries, score *sum) {
     geometry_destroy(w->geometry);
 }
 
-static void assert_useful(const score *sum, double seen, double hidden) {
-    if (sum->known_seen < seen * sum->seen || sum->known_hidden < hidden * sum->hidden)
-        fail_msg("known: %d of %d seen, %d of %d hidden", sum->known_seen, sum->seen, sum->known_hidden, sum->hidden);
-}
-
 static void empty_rooms(void **state) {
     (void)state;
     dice d = {13};
     score sum = {0};
     for (int i = 0; i < 30; i++) {
         world w;
-        place_world(&w, &d);
-        add_room(&w);
-        add_lamps(&w, &d);
+        make_empty_room(&w, &d);
         check_world(&w, &d, 200, &sum);
     }
     assert_useful(&sum, 0.85, 0.4);
@@ -105,14 +91,7 @@ static void furnished_rooms(void **state) {
     score sum = {0};
     for (int i = 0; i < 60; i++) {
         world w;
-        place_world(&w, &d);
-        add_room(&w);
-        add_lamps(&w, &d);
-        add_things(&w, &d);
-        if (i % 2)
-            add_tilted(&w, &d);
-        if (i % 4 >= 2)
-            add_cloth(&w, &d, i % 8 < 4 ? 6 : MOST_CELLS);
+        make_furnished_room(&w, &d, i, i % 8 < 4 ? 6 : MOST_CELLS);
         check_world(&w, &d, 200, &sum);
     }
     assert_useful(&sum, 0.7, 0.5);

@@ -199,6 +199,27 @@ static inline void roll_light(const world *w, dice *d, geometry_sight *sight) {
     sight->half_angle = roll(d) < 0.5 ? 0.005 : roll_between(d, 0, 1.5);
 }
 
+static inline void make_empty_room(world *w, dice *d) {
+    place_world(w, d);
+    add_room(w);
+    add_lamps(w, d);
+}
+
+/* One of four kinds, in two of which hangs a cloth of so many cells across. */
+static inline void make_furnished_room(world *w, dice *d, int kind, int cells) {
+    make_empty_room(w, d);
+    add_things(w, d);
+    if (kind % 2)
+        add_tilted(w, d);
+    if (kind % 4 >= 2)
+        add_cloth(w, d, cells);
+}
+
+/* How often the whole light is seen or hidden as far as rays tell, and how often that was known. */
+typedef struct score {
+    int seen, known_seen, hidden, known_hidden;
+} score;
+
 /* How many of some shadow rays are stopped, and how many there are. */
 typedef struct tally {
     int stopped, rays;
@@ -235,6 +256,18 @@ static inline tally ask_rays(const world *w, dice *d, const geometry_sight *sigh
         t.stopped += geometry_occluded(w->geometry, &ray, sight->light);
     }
     return t;
+}
+
+static inline void keep_score(score *sum, tally t, geometry_visibility found) {
+    sum->seen += t.stopped == 0;
+    sum->known_seen += t.stopped == 0 && found == GEOMETRY_CLEAR;
+    sum->hidden += t.stopped == t.rays;
+    sum->known_hidden += t.stopped == t.rays && found == GEOMETRY_BLOCKED;
+}
+
+static inline void assert_useful(const score *sum, double seen, double hidden) {
+    if (sum->known_seen < seen * sum->seen || sum->known_hidden < hidden * sum->hidden)
+        fail_msg("known: %d of %d seen, %d of %d hidden", sum->known_seen, sum->seen, sum->known_hidden, sum->hidden);
 }
 
 #endif

@@ -3,11 +3,6 @@
 
 #include "geometry/shaft_tree.h"
 
-/* How often the whole light is seen or hidden as far as rays tell, and how often that was known. */
-typedef struct score {
-    int seen, known_seen, hidden, known_hidden;
-} score;
-
 #define RAYS 48
 
 static void check_sight(const world *w, dice *d, const geometry_sight *sight, score *sum) {
@@ -21,10 +16,7 @@ static void check_sight(const world *w, dice *d, const geometry_sight *sight, sc
                  sight->point.x, sight->point.y, sight->point.z, (intmax_t)sight->from, t.rays - t.stopped, t.rays);
     if (t.rays < RAYS / 2)
         return;
-    sum->seen += t.stopped == 0;
-    sum->known_seen += t.stopped == 0 && found == GEOMETRY_CLEAR;
-    sum->hidden += t.stopped == t.rays;
-    sum->known_hidden += t.stopped == t.rays && found == GEOMETRY_BLOCKED;
+    keep_score(sum, t, found);
 }
 
 static void check_world(world *w, dice *d, int queries, score *sum) {
@@ -39,20 +31,13 @@ static void check_world(world *w, dice *d, int queries, score *sum) {
     geometry_destroy(w->geometry);
 }
 
-static void assert_useful(const score *sum, double seen, double hidden) {
-    if (sum->known_seen < seen * sum->seen || sum->known_hidden < hidden * sum->hidden)
-        fail_msg("known: %d of %d seen, %d of %d hidden", sum->known_seen, sum->seen, sum->known_hidden, sum->hidden);
-}
-
 static void empty_rooms(void **state) {
     (void)state;
     dice d = {3};
     score sum = {0};
     for (int i = 0; i < 30; i++) {
         world w;
-        place_world(&w, &d);
-        add_room(&w);
-        add_lamps(&w, &d);
+        make_empty_room(&w, &d);
         check_world(&w, &d, 200, &sum);
     }
     assert_useful(&sum, 0.95, 0.5);
@@ -64,14 +49,7 @@ static void furnished_rooms(void **state) {
     score sum = {0};
     for (int i = 0; i < 60; i++) {
         world w;
-        place_world(&w, &d);
-        add_room(&w);
-        add_lamps(&w, &d);
-        add_things(&w, &d);
-        if (i % 2)
-            add_tilted(&w, &d);
-        if (i % 4 >= 2)
-            add_cloth(&w, &d, 6);
+        make_furnished_room(&w, &d, i, 6);
         check_world(&w, &d, 200, &sum);
     }
     assert_useful(&sum, 0.85, 0.7);
@@ -84,9 +62,7 @@ static void meshes(void **state) {
     score sum = {0};
     for (int i = 0; i < 10; i++) {
         world w;
-        place_world(&w, &d);
-        add_room(&w);
-        add_lamps(&w, &d);
+        make_empty_room(&w, &d);
         add_things(&w, &d);
         add_cloth(&w, &d, MOST_CELLS);
         check_world(&w, &d, 500, &sum);

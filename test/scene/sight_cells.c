@@ -12,13 +12,8 @@
 
 #include "scene/light.h"
 #include "scene/sight_cells.h"
+#include "support/dice.h"
 #include "support/scene_text.h"
-
-static uint64_t state_of_random = 1;
-static double uniform(void) {
-    state_of_random = state_of_random * 6364136223846793005u + 1442695040888963407u;
-    return (double)(state_of_random >> 11) * 0x1p-53;
-}
 
 /* A room with an L-shaped floor, turned about the upright, with a table and a partition; a lamp, a window and a sun. */
 #define ROOM                                                                                                           \
@@ -42,12 +37,13 @@ static int surface_named(const graze_scene *scene, const char *name) {
 }
 
 /* Shadow rays from a point to a light's front. */
-static void check_light(const graze_scene *scene, int surface, vec3 point, vec3 normal, int light, int found[3]) {
+static void check_light(const graze_scene *scene, dice *d, int surface, vec3 point, vec3 normal, int light,
+                        int found[3]) {
     geometry_visibility seen = sight_cells_at(scene, surface, point, light);
     assert_int_equal(sight_cells_at(scene, surface, point, light), seen);
     found[seen]++;
     for (int i = 0; i < 8; i++) {
-        light_sample sample = light_draw(scene, point, 0, light, (double[2]){uniform(), uniform()});
+        light_sample sample = light_draw(scene, point, 0, light, (double[2]){roll(d), roll(d)});
         if (sample.light < 0 || vec3_dot(sample.direction, normal) <= 0)
             continue;
         geometry_ray ray = {point, sample.direction, sample.distance, surface};
@@ -60,8 +56,9 @@ static void check_light(const graze_scene *scene, int surface, vec3 point, vec3 
 /* From points that rays from above find. */
 static void check_surface(const graze_scene *scene, const char *name, int found[3]) {
     int surface = surface_named(scene, name), points = 0;
+    dice d = {1};
     while (points < 4000) {
-        geometry_ray ray = {.origin = {4.5 * uniform() - 1.3, 5 * uniform(), 2.4},
+        geometry_ray ray = {.origin = {roll_between(&d, -1.3, 3.2), roll_between(&d, 0, 5), 2.4},
                             .direction = {0, 0, -1},
                             .far = GEOMETRY_FAR,
                             .from = -1};
@@ -70,7 +67,7 @@ static void check_surface(const graze_scene *scene, const char *name, int found[
             continue;
         points++;
         for (int light = 0; light < (int)scene->light_count; light++)
-            check_light(scene, surface, hit.point, hit.normal, light, found);
+            check_light(scene, &d, surface, hit.point, hit.normal, light, found);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -28,17 +29,39 @@ static graze_ray ray_to_circle(double turn) {
     return (graze_ray){.origin = {1.5 * cos(angle), 1.5 * sin(angle), 0.01}, .direction = {0, 0, -1}};
 }
 
+/* What so many samples find, for answers to be compared with. */
+static graze_answer truth_of(const graze_scene *scene, graze_trace_settings s, const graze_ray *ray, uint32_t samples,
+                             uint64_t seed) {
+    graze_answer truth;
+    s.samples = samples;
+    graze_trace(scene, &s, ray, seed, &truth, NULL);
+    return truth;
+}
+
+static bool is_covered(const graze_answer *answer, const graze_answer *truth) {
+    return fabs(answer->value.g - truth->value.g) <= 1.96 * hypot(answer->standard_error.g, truth->standard_error.g);
+}
+
+/* How many of so many answers hold the truth in their 95 % intervals. */
+static int count_covering(const graze_scene *scene, const graze_trace_settings *s, const graze_ray *ray,
+                          const graze_answer *truth, uint64_t times) {
+    int covered = 0;
+    for (uint64_t k = 0; k < times; k++) {
+        graze_answer answer;
+        graze_trace(scene, s, ray, k, &answer, NULL);
+        covered += is_covered(&answer, truth);
+    }
+    return covered;
+}
+
 static void intervals_cover_a_caustic(void **state) {
     (void)state;
     graze_scene *scene = load(SUN "void plastic g 0 0 5 .3 .3 .3 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 20\n"
                                   "void metal m 0 0 5 .7 .7 .7 .9 .1 m sphere ball 0 0 4 0 0 1 .99\n");
     graze_trace_settings s = graze_trace_defaults();
     s.ambient_bounces = 1;
-    s.samples = 1u << 20;
     graze_ray ray = ray_to_circle(0);
-    graze_answer truth, answer;
-    graze_trace(scene, &s, &ray, 1000, &truth, NULL);
-    s.samples = 0;
+    graze_answer truth = truth_of(scene, s, &ray, 1u << 20, 1000), answer;
     enum { RAYS = 400 };
     static const double errors[] = {0.05, 0.02, 0.01};
     for (int e = 0; e < 3; e++) {
@@ -94,19 +117,11 @@ static void intervals_cover_what_shines_through(void **state) {
                               "void trans t 0 0 7 .8 .8 .8 0 .1 .9 .9 t ring pane 0 0 8 0 0 1 0 0 1 0 9\n");
     graze_trace_settings s = graze_trace_defaults();
     graze_ray ray = {.origin = {2, 0, 0.5}, .direction = {0, 0, -1}};
-    graze_answer truth, answer;
-    int covered = 0;
     enum { TIMES = 1000 };
     s.ambient_bounces = 1;
-    s.samples = 1u << 18;
-    graze_trace(scene, &s, &ray, TIMES, &truth, NULL);
-    s.samples = 0;
     s.error = 0.1;
-    for (uint64_t k = 0; k < TIMES; k++) {
-        graze_trace(scene, &s, &ray, k, &answer, NULL);
-        double off = fabs(answer.value.g - truth.value.g);
-        covered += off <= 1.96 * hypot(answer.standard_error.g, truth.standard_error.g);
-    }
+    const graze_answer truth = truth_of(scene, s, &ray, 1u << 18, TIMES);
+    const int covered = count_covering(scene, &s, &ray, &truth, TIMES);
     printf("# %.1f%% covered; truth %g +- %g\n", 100.0 * covered / TIMES, truth.value.g, truth.standard_error.g);
     assert_true(covered >= 0.9 * TIMES);
     graze_scene_destroy(scene);
@@ -122,18 +137,11 @@ static void what_clear_bodies_throw_is_in_the_error(void **state) {
     graze_trace_settings s = graze_trace_defaults();
     int covered = 0;
     enum { RAYS = 10, TIMES = 20 };
+    s.error = 0.1;
     for (int i = 0; i < RAYS; i++) {
         graze_ray ray = {.origin = {0.3 + 0.1 * i / RAYS, 0, 0.01}, .direction = {0, 0, -1}};
-        graze_answer truth, answer;
-        s.samples = 1u << 17;
-        graze_trace(scene, &s, &ray, TIMES, &truth, NULL);
-        s.samples = 0;
-        s.error = 0.1;
-        for (uint64_t k = 0; k < TIMES; k++) {
-            graze_trace(scene, &s, &ray, k, &answer, NULL);
-            double off = fabs(answer.value.g - truth.value.g);
-            covered += off <= 1.96 * hypot(answer.standard_error.g, truth.standard_error.g);
-        }
+        const graze_answer truth = truth_of(scene, s, &ray, 1u << 17, TIMES);
+        covered += count_covering(scene, &s, &ray, &truth, TIMES);
     }
     printf("# %.1f%% covered\n", 100.0 * covered / (RAYS * TIMES));
     assert_true(covered >= 0.9 * RAYS * TIMES);
@@ -150,18 +158,15 @@ static void what_is_not_met_is_in_the_error(void **state) {
                               "void plastic l 0 0 5 .2 .2 .2 .05 .1 l ring wall 0 0 8 -1 0 0 1 0 0 0 50\n");
     graze_trace_settings s = graze_trace_defaults();
     int covered = 0, certain = 0;
+    s.error = 0.05;
     enum { RAYS = 40, TIMES = 25 };
     for (int i = 0; i < RAYS; i++) {
         graze_ray ray = {.direction = {1, 0.08 + 0.04 * i / RAYS, 0.02}};
-        graze_answer truth, answer;
-        s.samples = 1u << 15;
-        graze_trace(scene, &s, &ray, 12345, &truth, NULL);
-        s.samples = 0;
-        s.error = 0.05;
+        graze_answer truth = truth_of(scene, s, &ray, 1u << 15, 12345), answer;
         for (uint64_t k = 0; k < TIMES; k++) {
             graze_trace(scene, &s, &ray, k, &answer, NULL);
-            double off = fabs(answer.value.g - truth.value.g), stated = answer.standard_error.g;
-            covered += off <= 1.96 * hypot(stated, truth.standard_error.g);
+            double stated = answer.standard_error.g;
+            covered += is_covered(&answer, &truth);
             certain += stated < 1e-7 * answer.value.g;
             assert_true(stated < 0.01 * answer.value.g);
         }
