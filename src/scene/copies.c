@@ -172,22 +172,34 @@ static void add_copies_of_part(scene_builder *b, size_t number, const rad_part *
         add_copy(b, number, part, &copies[from->first_copy + i]);
 }
 
-static bool is_glazed(const graze_scene *scene, const scene_part *part) {
-    for (size_t i = 0; i < part->copy_count; i++)
-        if (part->copies[i].replaces &&
-            scene_material_is_pane(scene, &scene->materials[part->copies[i].surface.material]))
-            return true;
-    return false;
+void scene_let_light_through(graze_scene *scene, bool *held) {
+    for (size_t i = 1; i < scene->part_count; i++) {
+        const scene_part *part = &scene->parts[i];
+        if (!held[i])
+            continue;
+        for (size_t k = 0; k < part->surface_count; k++)
+            part->shapes[k].passes = true;
+        for (size_t k = 0; k < part->copy_count; k++)
+            held[part->copies[k].part] = true;
+    }
 }
 
-/* Where a copy has light go through all that is in it, whatever that is made of, any copied shape may. */
-static void let_light_through(graze_scene *scene) {
-    bool glazed = false;
+/* Where a copy has light go through all that is in it, whatever that is made of, its shapes may. */
+static void let_light_through_copies(scene_builder *b) {
+    graze_scene *scene = b->scene;
+    bool *held = calloc(scene->part_count, sizeof *held);
+    if (!held) {
+        scene_fail(b, report_out_of_memory(b->report));
+        return;
+    }
     for (size_t i = 0; i < scene->part_count; i++)
-        glazed = glazed || is_glazed(scene, &scene->parts[i]);
-    for (size_t i = 1; i < scene->part_count && glazed; i++)
-        for (size_t k = 0; k < scene->parts[i].surface_count; k++)
-            scene->parts[i].shapes[k].passes = true;
+        for (size_t k = 0; k < scene->parts[i].copy_count; k++) {
+            const scene_copy *copy = &scene->parts[i].copies[k];
+            if (copy->replaces && scene_material_is_pane(scene, &scene->materials[copy->surface.material]))
+                held[copy->part] = true;
+        }
+    scene_let_light_through(scene, held);
+    free(held);
 }
 
 /* Users before what they use, so that it is known of meshes whether their own materials are needed. */
@@ -214,5 +226,5 @@ void scene_add_copies(scene_builder *b) {
             add_copies_of_part(b, i, &from[i]);
     }
     if (b->status == GRAZE_OK && scene->has_panes)
-        let_light_through(scene);
+        let_light_through_copies(b);
 }
