@@ -166,13 +166,36 @@ static graze_status take_picture(material_library *library, material_picture *ta
     return GRAZE_OK;
 }
 
+/* ---- Pictures' messages, with the pattern that asks for the picture ---- */
+
+typedef struct asked_report {
+    const graze_report *report;
+    place who;
+} asked_report;
+
+static void write_asked(void *user, graze_severity severity, const char *text) {
+    const asked_report *asked = user;
+    const place where = {.parent = &asked->who};
+    if (severity == GRAZE_ERROR)
+        report_error(asked->report, &where, "%s", text);
+    else
+        report_warning(asked->report, &where, "%s", text);
+}
+
+static graze_status read_image(image **picture, const char *path, const material_library *library,
+                               const rad_primitive *p) {
+    rad_primitive_name name;
+    asked_report asked = {&library->report, rad_primitive_place(p, &name)};
+    return image_read(picture, path, &(graze_report){write_asked, &asked});
+}
+
 static graze_status read_picture(material_library *library, material_picture *taken, const char *name,
                                  const rad_primitive *p) {
     const char *path;
     image *picture = NULL;
     graze_status status = find_path(library, name, "picture", p, &path);
     if (!status)
-        status = image_read(&picture, path, &library->report);
+        status = read_image(&picture, path, library, p);
     if (!status)
         status = take_picture(library, taken, picture, p);
     image_destroy(picture);

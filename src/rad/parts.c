@@ -51,12 +51,17 @@ static graze_status read_octree(rad_linker *l, const whole_file *file, const pla
 
 static graze_status read_file(rad_linker *l, const rad_primitive *user, const char *path, rad_part *part) {
     rad_scene *scene = l->scene;
-    place *where = arena_allocate(scene->memory, sizeof *where);
-    if (!where)
+    struct {
+        place file, user;
+        rad_primitive_name name;
+    } *places = arena_allocate(scene->memory, sizeof *places); /* what is read from the file points there */
+    if (!places)
         return report_out_of_memory(l->reader.report);
-    *where = (place){.file = path, .parent = user->where};
+    places->user = rad_primitive_place(user, &places->name);
+    places->file = (place){.file = path, .parent = &places->user};
+    const place *where = &places->file;
     whole_file file;
-    graze_status status = whole_file_read_path(&file, path, path, user->where, l->reader.report);
+    graze_status status = whole_file_read_path(&file, path, path, &places->user, l->reader.report);
     if (status)
         return status;
     rad_name_table_free(&l->modifiers);

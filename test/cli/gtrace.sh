@@ -130,9 +130,11 @@ fails "a scene cut short" 1 "cut.rad:1" "" "$gtrace" cut.rad
 printf '#comment\nvoid aBSDF g 5 a.xml 0 0 1 . 0 0\ng sphere s 0 0 4 0 0 0 1\n' >bsdf.rad
 fails "a type not supported" 1 "bsdf.rad:2:1: aBSDF g" "" "$gtrace" bsdf.rad
 printf 'void plastic g 0 0 5 .5 .5 .5 0 0\ng mesh i 1 /dev/zero 0 0\n' >endless.rad
-fails "a mesh without an end" 1 "endless.rad:2:1: cannot read /dev/zero: it is a device" "" "$gtrace" endless.rad
+fails "a mesh without an end" 1 "endless.rad:2:1: mesh i: cannot read /dev/zero: it is a device" "" "$gtrace" endless.rad
 printf 'void brightdata d 4 noneg /dev/zero . Px 0 0\nd plastic g 0 0 5 .5 .5 .5 0 0\ng sphere s 0 0 4 0 0 0 1\n' >endless.rad
 fails "data without an end" 1 "endless.rad:1:1: brightdata d: cannot read /dev/zero" "" "$gtrace" endless.rad
+printf 'void colorpict c 7 noop noop noop cut.rad . Px Py 0 0\nc plastic g 0 0 5 1 1 1 0 0\ng sphere s 0 0 4 0 0 0 1\n' >nopicture.rad
+fails "a picture that is none" 1 "(from colorpict c at nopicture.rad:1:1)" "" "$gtrace" nopicture.rad
 printf 'nobody sphere s 0 0 4 0 0 0 1\n' >undefined.rad
 fails "an undefined modifier" 1 "undefined.rad:1:1: sphere s: undefined modifier" "" "$gtrace" undefined.rad
 printf '\n!cat undefined.rad\n' >inner.rad

@@ -228,7 +228,7 @@ static void damaged_meshes_are_refused(void **state) {
     put_mesh_head_of(&b, "-1", "0");
     assert_refused(text, &b, "bad.rtm: mesh: damaged: its cube has no size");
     assert_refused("void mesh it 1 nowhere.rtm 0 0\n", NULL, "mesh it: cannot find mesh file \"nowhere.rtm\"");
-    assert_refused("void mesh it 1 scene.rad 0 0\n", NULL, "scene.rad: not a compiled mesh (from scene.rad:1:1)");
+    assert_refused("void mesh it 1 scene.rad 0 0\n", NULL, "not a compiled mesh (from mesh it at scene.rad:1:1)");
     assert_refused("void mesh it 3 bad.rtm -t 1 0 0\n", NULL, "mesh it: bad transform at \"-t\"");
     write_binary("bad.rtm", &whole);
     assert_refused("void mesh a 1 bad.rtm 0 0\nvoid instance b 1 bad.rtm 0 0\n", NULL, "\"bad.rtm\" is a mesh");
