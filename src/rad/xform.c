@@ -90,7 +90,15 @@ static graze_status run_once(rad_job *j, const char *const *words, int count) {
     return status;
 }
 
-static graze_status run(rad_job *j, const char *const *words, int count, int depth);
+/* The arrays and argument files that a command comes from, innermost first. */
+typedef struct nesting {
+    const struct nesting *outer; /* or null */
+    int depth;                   /* from 1 */
+    const whole_file *text;      /* of an argument file; null of an array */
+    int behind;                  /* how many words of the command follow those of the file's line */
+} nesting;
+
+static graze_status run(rad_job *j, const char *const *words, int count, const nesting *outer);
 
 static int find_word(const char *const *words, int count, const char *wanted) {
     for (int i = 1; i < count; ++i)
@@ -158,7 +166,7 @@ static long all_instances(const char *const *words, int count) {
 }
 
 /* `-a n transforms`: the command with `-i 0`, `-i 1` ... `-i n-1` in its place. */
-static graze_status run_array(rad_job *j, const char *const *words, int count, int at, int depth) {
+static graze_status run_array(rad_job *j, const char *const *words, int count, int at, const nesting *here) {
     int n = at + 1 < count ? array_count(words[at + 1]) : 0;
     if (n == 0)
         return report_error(j->reader->report, j->context->parent, "xform: missing count for -a option");
@@ -178,15 +186,16 @@ static graze_status run_array(rad_job *j, const char *const *words, int count, i
         instance[at + 1] = digits;
         int instance_count = count;
         number_prefix(instance, &instance_count, true, "a", i, name, room);
-        status = run(j, instance, instance_count, depth + 1);
+        status = run(j, instance, instance_count, here);
     }
     free(instance);
     free(name);
     return status;
 }
 
-/* Splits one line of an argument file into words behind words[*count]. */
-static graze_status split_line(const rad_job *j, const char *line, size_t length, const char **words, int *count) {
+/* Splits one line of an argument file into words in `memory`, behind words[*count]. */
+static graze_status split_line(const rad_job *j, arena *memory, const char *line, size_t length, const char **words,
+                               int *count) {
     if (*line == '!') {
         ++line;
         --length;
@@ -203,7 +212,7 @@ static graze_status split_line(const rad_job *j, const char *line, size_t length
     while (!status && (outcome = rad_words_next(&reading, &word)) != RAD_WORD_NONE) {
         if (outcome == RAD_WORD && word.length == 1 && *word.text == '\\')
             continue; /* before a line's end: the line goes on */
-        const char *kept = outcome == RAD_WORD ? arena_copy_text(j->reader->memory, word.text, word.length) : NULL;
+        const char *kept = outcome == RAD_WORD ? arena_copy_text(memory, word.text, word.length) : NULL;
         if (kept)
             words[(*count)++] = kept;
         else if (outcome == RAD_WORD || outcome == RAD_WORD_NO_MEMORY)
@@ -216,10 +225,9 @@ static graze_status split_line(const rad_job *j, const char *line, size_t length
     return status;
 }
 
-/* `-f file`: the command with each line of the file in its place, in turn. */
-static graze_status run_line(rad_job *j, const char *const *words, int count, int at, const rad_word *line, int number,
-                             int depth) {
-    arena *memory = j->reader->memory;
+/* `-f file`: the command with one line of the file in its place. What it needs is in `memory`. */
+static graze_status run_line(rad_job *j, arena *memory, const char *const *words, int count, int at,
+                             const rad_word *line, int number, const nesting *here) {
     size_t most = (size_t)count + line->length / 2 + 4;
     const char **instance = arena_allocate(memory, most * sizeof *instance);
     char *text = arena_copy_text(memory, line->text, line->length);
@@ -229,33 +237,36 @@ static graze_status run_line(rad_job *j, const char *const *words, int count, in
         return report_out_of_memory_at(j->reader->report, j->context->parent);
     int instance_count = at;
     memcpy(instance, words, (size_t)at * sizeof *instance);
-    graze_status status = split_line(j, text, line->length, instance, &instance_count);
+    graze_status status = split_line(j, memory, text, line->length, instance, &instance_count);
     if (status)
         return status;
-    size_t tail = (size_t)(count - at - 2);
-    memcpy(instance + instance_count, words + at + 2, tail * sizeof *instance);
-    instance_count += (int)tail;
+    memcpy(instance + instance_count, words + at + 2, (size_t)here->behind * sizeof *instance);
+    instance_count += here->behind;
     number_prefix(instance, &instance_count, false, "i", number, name, room);
-    return run(j, instance, instance_count, depth + 1);
+    return run(j, instance, instance_count, here);
 }
 
 /* The command for each line of an argument file, which messages call `name`. */
-static graze_status run_lines(rad_job *j, const char *const *words, int count, int at, const whole_file *text,
-                              const char *name, int depth) {
+static graze_status run_lines(rad_job *j, const char *const *words, int count, int at, const char *name,
+                              const nesting *here) {
     const graze_report *report = j->reader->report;
     graze_status status = GRAZE_OK;
     rad_words lines;
-    rad_words_begin(&lines, text->bytes, text->length);
+    rad_words_begin(&lines, here->text->bytes, here->text->length);
     int number = 0;
     while (!status && lines.next < lines.end) {
         rad_word line;
         rad_word_status outcome = rad_words_command(&lines, &line);
-        if (outcome != RAD_WORD)
+        if (outcome != RAD_WORD) {
             status = outcome == RAD_WORD_ZERO
                          ? report_error(report, j->context->parent, "xform: %s is no argument file", name)
                          : report_out_of_memory_at(report, j->context->parent);
-        else if (line.length > 0 && line.text[0] != '#')
-            status = run_line(j, words, count, at, &line, number++, depth);
+        } else if (line.length > 0 && line.text[0] != '#') {
+            arena *memory = arena_create();
+            status = memory ? run_line(j, memory, words, count, at, &line, number++, here)
+                            : report_out_of_memory_at(report, j->context->parent);
+            arena_destroy(memory);
+        }
     }
     if (!status && number == 0)
         status = report_error(report, j->context->parent, "xform: empty argument file \"%s\"", name);
@@ -263,11 +274,31 @@ static graze_status run_lines(rad_job *j, const char *const *words, int count, i
     return status;
 }
 
-static graze_status run_file(rad_job *j, const char *const *words, int count, int at, int depth) {
+/* Whether the `-f` that has `behind` words behind it stands in a line of a file with this same text: its copies would
+ * double with each level, and there would be no last one. By the text, for a file has many names. */
+static bool is_being_read(const nesting *n, const whole_file *text, int behind) {
+    for (; n; n = n->outer)
+        if (n->text && behind >= n->behind && n->text->length == text->length &&
+            !memcmp(n->text->bytes, text->bytes, text->length))
+            return true;
+    return false;
+}
+
+static graze_status run_text(rad_job *j, const char *const *words, int count, int at, const char *name,
+                             const nesting *here) {
+    if (is_being_read(here->outer, here->text, here->behind))
+        return report_error(j->reader->report, j->context->parent, "xform: argument file %s names itself", name);
+    return run_lines(j, words, count, at, name, here);
+}
+
+static graze_status run_file(rad_job *j, const char *const *words, int count, int at, nesting *here) {
     const graze_report *report = j->reader->report;
     static const whole_file nothing = {"", 0};
-    if (at + 1 < count && !strcmp(words[at + 1], "-"))
-        return run_lines(j, words, count, at, j->options ? j->options : &nothing, "standard input", depth);
+    here->behind = count - at - 2;
+    if (at + 1 < count && !strcmp(words[at + 1], "-")) {
+        here->text = j->options ? j->options : &nothing;
+        return run_text(j, words, count, at, "standard input", here);
+    }
     if (at + 1 >= count || words[at + 1][0] == '-')
         return report_error(report, j->context->parent, "xform: missing file for -f option");
     const char *path = rad_path_resolve(j->reader->memory, j->context->directory, words[at + 1]);
@@ -277,25 +308,27 @@ static graze_status run_file(rad_job *j, const char *const *words, int count, in
     graze_status status = whole_file_read_path(&text, path, path, j->context->parent, report);
     if (status)
         return status;
-    status = run_lines(j, words, count, at, &text, path, depth);
+    here->text = &text;
+    status = run_text(j, words, count, at, path, here);
     free(text.bytes);
     return status;
 }
 
-static graze_status run(rad_job *j, const char *const *words, int count, int depth) {
+static graze_status run(rad_job *j, const char *const *words, int count, const nesting *outer) {
     enum { DEPTH_MOST = 64 };
     int file = find_word(words, count, "-f"), array = find_word(words, count, "-a");
     if (!file && !array)
         return run_once(j, words, count);
-    if (depth > DEPTH_MOST)
+    nesting here = {.outer = outer, .depth = outer ? outer->depth + 1 : 1};
+    if (here.depth > DEPTH_MOST)
         return report_error(j->reader->report, j->context->parent,
                             "xform: arrays and argument files are nested more than %d deep", DEPTH_MOST);
-    return file ? run_file(j, words, count, file, depth) : run_array(j, words, count, array, depth);
+    return file ? run_file(j, words, count, file, &here) : run_array(j, words, count, array, &here);
 }
 
 static graze_status run_stage(rad_job j, const rad_stage *stage) {
     j.once = !find_word(stage->words, stage->count, "-f") && !find_word(stage->words, stage->count, "-a");
-    graze_status status = run(&j, stage->words, stage->count, 0);
+    graze_status status = run(&j, stage->words, stage->count, NULL);
     for (int i = 0; i < RAD_KEPT_FILES; ++i)
         rad_list_free(&j.files[i].primitives);
     return status;

@@ -81,7 +81,7 @@ static graze_status keep_file(rad_job *j, const char *name, bool expand, const r
             *primitives = &j->files[i].primitives;
             return GRAZE_OK;
         }
-    /* It may be the numbered name of an array's instance, which does not last. */
+    /* It may be the numbered name of an array's instance or a word of an argument file, which do not last. */
     const char *kept_name = arena_copy_text(j->reader->memory, name, strlen(name));
     if (!kept_name)
         return report_out_of_memory_at(j->reader->report, j->context->parent);
@@ -95,7 +95,7 @@ static graze_status keep_file(rad_job *j, const char *name, bool expand, const r
     j->files[room].expand = expand;
     *primitives = l;
     rad_list_sink kept = {j->reader, l};
-    return read_file(j, name, expand, &(rad_sink){rad_list_append, &kept});
+    return read_file(j, kept_name, expand, &(rad_sink){rad_list_append, &kept});
 }
 
 graze_status rad_job_filter_file(rad_job *j, const char *name, bool expand, rad_filter_sink *filtered) {

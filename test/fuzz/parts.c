@@ -34,7 +34,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const char *const users[] = {"void mesh it 1 input.bin 0 0\n", "void instance it 1 input.bin 0 0\n"};
     int errors = 0;
     const graze_report report = {count_error, &errors};
-    if (size < 1)
+    if (size < 1 || (data[0] % 2 && has_large_array(data + 1, size - 1)))
         return 0;
     const char *text = users[data[0] % 2], *name = "user.rad";
     set_input(name, text, strlen(text));

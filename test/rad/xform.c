@@ -224,6 +224,11 @@ static void reads_argument_files(void **state) {
     scene = read_text("!cat ball.rad | xform -f names -n r\n");
     assert_string_equal(primitive_at(scene, 1)->id, "r.0.s");
     rad_scene_destroy(scene);
+    /* The same file again behind its own lines is no recursion. */
+    scene = read_text("!xform -f lines -f lines ball.rad\n");
+    assert_int_equal(primitive_count(scene), 8);
+    assert_true(primitive_at(scene, 7)->reals[0] == 4);
+    rad_scene_destroy(scene);
 }
 
 /* Where what is transformed comes on standard input, options may be the last words. */
@@ -244,7 +249,9 @@ static void refuses_bad_commands(void **state) {
     write_file("ball.rad", "void light l 0 0 3 1 1 1\nl sphere s 0 0 4 0 0 0 1\n");
     write_file("itself.rad", "!xform -t 1 0 0 itself.rad\n!xform -t 1 0 0 itself.rad\n");
     write_file("empty", "# nothing\n");
-    write_file("again", "-f again\n");
+    write_file("again", "-t 1 0 0 -f ./again\n-t 2 0 0 -f again\n");
+    write_file("first", "-f second\n");
+    write_file("second", "-f first\n");
     write_file("open", "-t 1 0 0\n-n \"a\n");
     assert_int_equal(system("printf -- '-t 1 0 0\\n-\\0n' >zero"), 0);
     static const struct {
@@ -272,7 +279,9 @@ static void refuses_bad_commands(void **state) {
         {"!xform -f empty ball.rad", "empty argument file \"empty\""},
         {"!xform -f open ball.rad", "bad line in argument file: -n \"a"},
         {"!xform -f zero ball.rad", "xform: zero is no argument file"},
-        {"!xform -f again ball.rad", "nested more than 64 deep"},
+        {"!xform -f again ball.rad", "xform: argument file ./again names itself"},
+        {"!xform -f first ball.rad", "xform: argument file first names itself"},
+        {"!echo '-f -' | xform -f - ball.rad", "xform: argument file standard input names itself"},
         {"!xform missing.rad", "cannot find file \"missing.rad\""},
         {"!xform itself.rad", "nested more than 64 deep"},
         {"!echo 'void light l 0 0 3' | xform", "ends before"},
