@@ -219,9 +219,9 @@ static void add_ground(hull *h) {
 }
 
 /* False: nothing can be told. */
-static bool make_hull(hull *h, const geometry *g, const geometry_patch *patch) {
-    h->geometry = g;
-    h->patch = patch;
+static bool make_hull(hull *h) {
+    const geometry *g = h->geometry;
+    const geometry_patch *patch = h->patch;
     h->far = false;
     h->ball_radius = 0;
     h->plane_count = h->light_count = 0;
@@ -364,9 +364,25 @@ static geometry_visibility look_through(const hull *h, const shaft_tree *tree) {
     return mixed ? GEOMETRY_MIXED : GEOMETRY_CLEAR;
 }
 
+/* A flat light does not shine on what is behind it. */
+static bool is_behind_light(const hull *h) {
+    const int index = h->patch->light;
+    const shape *light = index < 0 ? NULL : &h->geometry->trees[0].shapes[index];
+    if (!light || !shape_is_flat(light))
+        return false;
+    const shape_plane front = shape_plane_of(light);
+    return span_of_patch(h, front.normal, front.point).high <= 0;
+}
+
 geometry_visibility geometry_sight_of_patch(const geometry *g, const geometry_patch *patch) {
     hull h;
-    if (!g->trees[0].scene || (!g->sights.nodes && !g->copied_sights.nodes) || !make_hull(&h, g, patch))
+    h.geometry = g;
+    h.patch = patch;
+    if (!g->trees[0].scene || (!g->sights.nodes && !g->copied_sights.nodes))
+        return GEOMETRY_MIXED;
+    if (is_behind_light(&h))
+        return GEOMETRY_BLOCKED;
+    if (!make_hull(&h))
         return GEOMETRY_MIXED;
     geometry_visibility own = look_through(&h, &g->sights);
     return own == GEOMETRY_CLEAR ? look_through(&h, &g->copied_sights) : own;

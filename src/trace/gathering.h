@@ -46,6 +46,8 @@ typedef struct lobe_choice {
 typedef struct gathering {
     vertex vertex;
     bool decided; /* the rest is known, also to other paths that come to the vertex: */
+    bool lit;     /* all light from lights is known: */
+    rgb direct;   /* what is reflected of it, for a throughput of 1 */
     lobe_choice lobes;
     light_choice lights;
 } gathering;

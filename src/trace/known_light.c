@@ -95,19 +95,59 @@ static void watch(path *p, int light) {
     begin_controls(p, light + 1);
 }
 
-/* What the surface reflects of a light that is seen as a whole. */
+/* What the surface reflects of a light that is seen as a whole, for a throughput of 1. */
 static rgb reflected_whole(const path *p, const vertex *v, const scene_light *light, const unshadowed_light *whole,
                            bool glossy) {
     rgb diffuse = !light->glow ? v->shading.diffuse : path_bounces_left(p) ? v->ambient : rgb_gray(0);
     rgb reflectance = rgb_scale(whole->diffuse, diffuse);
     if (glossy)
         reflectance = rgb_add_scaled(reflectance, whole->glossy, v->shading.specular);
-    return rgb_multiply(rgb_multiply(p->throughput, reflectance), light->radiance);
+    return rgb_multiply(reflectance, light->radiance);
 }
 
 static void settle(path *p, int light, rgb reflected) {
     p->known.settled |= 1u << light;
-    p->radiance = rgb_add(p->radiance, reflected);
+    p->radiance = rgb_add(p->radiance, rgb_multiply(p->throughput, reflected));
+}
+
+/* Whether cells can tell all of the light at the vertex: none comes weakened, by gloss, or from lights in copies. */
+static bool is_plain(const path *p, const vertex *v) {
+    const graze_scene *scene = p->context->scene;
+    return v->surface >= 0 && v->surface < (int64_t)scene->surface_count && scene->surfaces[v->surface].cells > 0 &&
+           v->shading.specular_lobe == GRAZE_LOBE_NONE && !v->shading.transmits && !v->function && !v->leans &&
+           scene->light_count == scene->first_copied && p->wanted != WANTED_BENT &&
+           context_samples_glows(p->context->settings);
+}
+
+bool known_light_of_all(const path *p, const vertex *v, rgb *reflected) {
+    const graze_scene *scene = p->context->scene;
+    bool seen[PATH_FEW_LIGHTS];
+    int count = (int)scene->light_count;
+    if (!is_plain(p, v))
+        return false;
+    for (int i = 0; i < count; i++) {
+        geometry_visibility found = sight_cells_at(scene, v->surface, v->point, i);
+        if (found == GEOMETRY_MIXED || scene->light_tree.group_of[i] < 0)
+            return false;
+        seen[i] = found == GEOMETRY_CLEAR;
+    }
+    *reflected = rgb_gray(0);
+    for (int i = 0; i < count; i++) {
+        unshadowed_light whole;
+        if (!seen[i])
+            continue;
+        if (!has_one_role(&scene->lights[i]) ||
+            !unshadowed_light_at(scene, &v->shading, v->point, i, false, &whole))
+            return false;
+        *reflected = rgb_add(*reflected, reflected_whole(p, v, &scene->lights[i], &whole, false));
+    }
+    return true;
+}
+
+void known_light_settle_all(path *p, rgb reflected) {
+    p->known.settled = (1u << p->context->scene->light_count) - 1;
+    p->integrated = p->integrated || !rgb_is_black(reflected);
+    p->radiance = rgb_add(p->radiance, rgb_multiply(p->throughput, reflected));
 }
 
 /* Adds what the surface reflects of a light that is seen as a whole. For a single sample, or few of many at this
@@ -137,7 +177,7 @@ static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geome
             watch(p, i);
         return;
     }
-    rgb reflected = reflected_whole(p, v, light, &found.whole, glossy);
+    const rgb reflected = reflected_whole(p, v, light, &found.whole, glossy);
     p->integrated = true;
     if (found.seen == GEOMETRY_CLEAR) {
         settle(p, i, reflected);
@@ -146,7 +186,7 @@ static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geome
     p->known.controls |= 1u << i;
     begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
     path_control *control = control_of(p, i);
-    control->difference = rgb_add(control->difference, reflected);
+    control->difference = rgb_add(control->difference, rgb_multiply(p->throughput, reflected));
 }
 
 void known_light_add(path *p, const vertex *v, const light_choice *lights) {
@@ -182,7 +222,7 @@ bool known_light_is_all(const path *p, const vertex *v, const light_choice *ligh
         for (int i = 0; i < lights->every; i++)
             if (!known_light_is_settled(p, i) && light_expectation(lights, i) > 0)
                 return false;
-    } else if (p->depth > 0) {
+    } else if (p->depth > 0 && p->known.settled == 0) {
         return false; /* not worth the question */
     }
     return !v->shading.transmits && !geometry_reflects_above(scene->geometry, v->point, v->normal, v->surface);

@@ -148,8 +148,26 @@ static inline bool is_veiled(const path *p) {
     return p->in_mist || path_is_in_body(p);
 }
 
-/* Decides for both sides of a surface that transmits. */
+/* Whether light from lights is asked for at the vertex that the path has come to. */
+static inline bool asks_for_lights(const path *p) {
+    return !p->context->record && !(p->gathering && p->depth == 0);
+}
+
+/* Decides where the path may go on, and which lights are to be sampled. */
+static void decide(const path *p, gathering *here) {
+    const vertex *v = &here->vertex;
+    const bool nothing_between = !p->context->observer && !is_veiled(p) && (p->scattered || path_is_at_first(p));
+    here->lobes = lobes_choose(p, v);
+    here->lit = nothing_between && asks_for_lights(p) && known_light_of_all(p, v, &here->direct);
+    if (here->lit)
+        light_choice_none(&here->lights);
+    else
+        direct_light_prepare(p, v, &here->lights);
+}
+
+/* The same for both sides of a surface that transmits. */
 static void decide_for_both(const path *p, gathering *here, other_side *beyond) {
+    here->lit = false;
     lobes_choose_both(p, &here->vertex, &here->lobes, &beyond->lobes);
     direct_light_prepare(p, &here->vertex, &here->lights);
     direct_light_prepare_below(p, &here->vertex, beyond);
@@ -232,15 +250,15 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
         if (!path_bounces_left(p))
             add_ambient_value(p, v);
         take_indirect(p, v);
-        if (transmits) {
+        if (transmits)
             decide_for_both(p, here, beyond);
-        } else if (!decided) {
-            here->lobes = lobes_choose(p, v);
-            direct_light_prepare(p, v, &here->lights);
-        }
+        else if (!decided)
+            decide(p, here);
         forget_known_lights(p);
         p->gloss = rare_gloss_at(p, v);
-        if (light_choice_is_possible(&here->lights) && !context->record && !(p->gathering && p->depth == 0)) {
+        if (here->lit) {
+            known_light_settle_all(p, here->direct);
+        } else if (light_choice_is_possible(&here->lights) && asks_for_lights(p)) {
             if (!context->observer && !is_veiled(p))
                 known_light_add(p, v, &here->lights);
             if (!p->scattered && !path_is_at_first(p) && !p->unmet && !context->observer)
