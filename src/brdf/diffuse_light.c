@@ -16,13 +16,16 @@ static const int deepest = 20;
 /* Squared tangents up to this, that of 15 degrees and a little more, are small enough for the series. */
 static const double small_tangent2 = .0725;
 
+/* Two numbers, reckoned with at once. */
+typedef double pair __attribute__((vector_size(2 * sizeof(double))));
+
 /* atan(t) / t for the square of t, by the series, whose rest is below 2^-54. */
-static inline double arc_tangent_over(double t2) {
-    double x = -t2, x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
-    double low = (1 + x * (1. / 3)) + x2 * (1. / 5 + x * (1. / 7));
-    double middle = (1. / 9 + x * (1. / 11)) + x2 * (1. / 13 + x * (1. / 15));
-    double high = (1. / 17 + x * (1. / 19)) + x2 * (1. / 21 + x * (1. / 23));
-    double last = 1. / 25 + x * (1. / 27);
+static inline pair arc_tangent_over(pair t2) {
+    pair x = -t2, x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
+    pair low = (1 + x * (1. / 3)) + x2 * (1. / 5 + x * (1. / 7));
+    pair middle = (1. / 9 + x * (1. / 11)) + x2 * (1. / 13 + x * (1. / 15));
+    pair high = (1. / 17 + x * (1. / 19)) + x2 * (1. / 21 + x * (1. / 23));
+    pair last = 1. / 25 + x * (1. / 27);
     return (low + x4 * middle) + x8 * (high + x4 * last);
 }
 
@@ -33,7 +36,7 @@ static inline double along_edge(graze_vec3 p, graze_vec3 q) {
     double sine2 = n.x * n.x + n.y * n.y + n.z * n.z, cosine = p.x * q.x + p.y * q.y + p.z * q.z;
     double whole = sqrt(sine2 + cosine * cosine) + cosine;
     if (cosine > 0 && sine2 <= small_tangent2 * whole * whole)
-        return 2 * n.z / whole * arc_tangent_over(sine2 / (whole * whole));
+        return 2 * n.z / whole * arc_tangent_over((pair){sine2 / (whole * whole), 0})[0];
     double sine = sqrt(sine2);
     return sine > 0 ? n.z / sine * atan2(sine, cosine) : 0;
 }
@@ -97,8 +100,26 @@ static bool is_above(const graze_vec3 *corners, size_t count) {
     return true;
 }
 
+/* Adds what the edges from a to b and from b to c are along_edge. False where one is too long for the series. */
+static inline bool along_two_edges(graze_vec3 a, graze_vec3 b, graze_vec3 c, pair *sum) {
+    const pair px = {a.x, b.x}, py = {a.y, b.y}, pz = {a.z, b.z};
+    const pair qx = {b.x, c.x}, qy = {b.y, c.y}, qz = {b.z, c.z};
+    const pair nx = py * qz - pz * qy, ny = pz * qx - px * qz, nz = px * qy - py * qx;
+    const pair sine2 = nx * nx + ny * ny + nz * nz, cosine = px * qx + py * qy + pz * qz;
+    const pair length2 = sine2 + cosine * cosine, length = {sqrt(length2[0]), sqrt(length2[1])};
+    const pair whole = length + cosine, scale = 1 / whole, tangent2 = sine2 * scale * scale;
+    if (!(cosine[0] > 0 && cosine[1] > 0 && tangent2[0] <= small_tangent2 && tangent2[1] <= small_tangent2))
+        return false;
+    *sum += 2 * nz * scale * arc_tangent_over(tangent2);
+    return true;
+}
+
 double graze_diffuse_polygon(const graze_vec3 *corners, size_t count) {
     double sum = 0;
+    pair sums = {0, 0};
+    if (count == 4 && is_above(corners, count) && along_two_edges(corners[0], corners[1], corners[2], &sums) &&
+        along_two_edges(corners[2], corners[3], corners[0], &sums))
+        return reflected(sums[0] + sums[1]);
     if (count >= 3 && is_above(corners, count))
         for (size_t i = 0; i < count; ++i)
             sum += along_edge(corners[i > 0 ? i - 1 : count - 1], corners[i]);

@@ -18,15 +18,16 @@
 /* What is known of one cell: this, or a geometry_visibility and 1. Threads that find it out find the same. */
 enum { UNKNOWN = 0 };
 
-typedef struct grid {
+typedef struct sight_grid {
     int surface, levels;
     vec3 corner, x, y;   /* of the rectangle around the surface; and its sides, */
     vec3 unit_x, unit_y; /* and these over their squared lengths */
-    size_t first, cells; /* of what is known of the first light, all levels; and how many cells that are */
-} grid;
+    size_t first, cells; /* of what is known of the first light, all levels; and how many cells that are, */
+    size_t above;        /* and how many of them those above the finest level */
+} sight_grid;
 
 struct sight_cells {
-    grid *grids;
+    sight_grid *grids;
     _Atomic unsigned char *known;
 };
 
@@ -56,7 +57,7 @@ static vec3 direction_of(const shape *s) {
 }
 
 /* The rectangle along that side. */
-static grid grid_of(const shape *s, int surface, int levels) {
+static sight_grid grid_of(const shape *s, int surface, int levels) {
     const vec3 *v = s->polygon.vertices;
     vec3 x = direction_of(s), y = vec3_cross(s->polygon.normal, x);
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
@@ -67,14 +68,15 @@ static grid grid_of(const shape *s, int surface, int levels) {
         y0 = fmin(y0, vec3_dot(from_center, y));
         y1 = fmax(y1, vec3_dot(from_center, y));
     }
-    return (grid){.surface = surface,
-                  .levels = levels,
-                  .corner = vec3_add_scaled(vec3_add_scaled(s->polygon.center, x0, x), y0, y),
-                  .x = vec3_scale(x1 - x0, x),
-                  .y = vec3_scale(y1 - y0, y),
-                  .unit_x = vec3_scale(1 / (x1 - x0), x),
-                  .unit_y = vec3_scale(1 / (y1 - y0), y),
-                  .cells = cells_of(levels)};
+    return (sight_grid){.surface = surface,
+                        .levels = levels,
+                        .corner = vec3_add_scaled(vec3_add_scaled(s->polygon.center, x0, x), y0, y),
+                        .x = vec3_scale(x1 - x0, x),
+                        .y = vec3_scale(y1 - y0, y),
+                        .unit_x = vec3_scale(1 / (x1 - x0), x),
+                        .unit_y = vec3_scale(1 / (y1 - y0), y),
+                        .cells = cells_of(levels),
+                        .above = cells_of(levels - 1)};
 }
 
 static bool may_have_cells(const shape *s) {
@@ -121,7 +123,7 @@ graze_status sight_cells_make(graze_scene *scene, const graze_report *report) {
         const shape *s = &scene->shapes[i];
         if (!may_have_cells(s) || exponent_of(s) < least)
             continue;
-        grid *g = &c->grids[count++];
+        sight_grid *g = &c->grids[count++];
         *g = grid_of(s, (int)i, levels_of(s->polygon.area, largest));
         g->first = cells;
         cells += g->cells * scene->first_copied;
@@ -140,7 +142,7 @@ void sight_cells_destroy(struct sight_cells *c) {
 }
 
 /* The cell in column x, row y of so many of either. */
-static geometry_visibility look(const graze_scene *scene, const grid *g, int light, int x, int y, int side) {
+static geometry_visibility look(const graze_scene *scene, const sight_grid *g, int light, int x, int y, int side) {
     const scene_light *l = &scene->lights[light];
     vec3 step_x = vec3_scale(1.0 / side, g->x), step_y = vec3_scale(1.0 / side, g->y);
     vec3 corner = vec3_add_scaled(vec3_add_scaled(g->corner, x, step_x), y, step_y), next = vec3_add(corner, step_x);
@@ -153,7 +155,8 @@ static geometry_visibility look(const graze_scene *scene, const grid *g, int lig
 }
 
 /* Down to a cell, from the first one above it that is not known to be seen or hidden as a whole. */
-static geometry_visibility descend(const graze_scene *scene, const grid *g, int light, int x, int y) {
+static geometry_visibility descend(const graze_scene *scene, const sight_grid *g, int light, int number) {
+    const int x = number & ((1 << g->levels) - 1), y = number >> g->levels;
     _Atomic unsigned char *known = scene->sight_cells->known + g->first + (size_t)light * g->cells;
     geometry_visibility found = GEOMETRY_MIXED;
     for (int level = 0; level <= g->levels; level++) {
@@ -176,12 +179,19 @@ static int cell_of(double part, int side) {
     return part > 0 ? part < 1 ? (int)(part * side) : side - 1 : 0;
 }
 
-geometry_visibility sight_cells_find(const graze_scene *scene, int cells, vec3 point, int light) {
-    const grid *g = &scene->sight_cells->grids[cells];
+sight_cell sight_cells_find(const graze_scene *scene, int cells, vec3 point) {
+    const sight_grid *g = &scene->sight_cells->grids[cells - 1];
     vec3 from_corner = vec3_subtract(point, g->corner);
     int side = 1 << g->levels;
     int x = cell_of(vec3_dot(from_corner, g->unit_x), side), y = cell_of(vec3_dot(from_corner, g->unit_y), side);
-    size_t finest = g->first + (size_t)light * g->cells + cells_of(g->levels - 1) + (size_t)(y * side + x);
+    return (sight_cell){g, y * side + x};
+}
+
+geometry_visibility sight_cell_sees(const graze_scene *scene, sight_cell cell, int light) {
+    const sight_grid *g = cell.grid;
+    if (!g || light >= (int)scene->first_copied)
+        return GEOMETRY_MIXED;
+    size_t finest = g->first + (size_t)light * g->cells + g->above + (size_t)cell.number;
     unsigned char state = atomic_load_explicit(&scene->sight_cells->known[finest], memory_order_relaxed);
-    return state != UNKNOWN ? (geometry_visibility)(state - 1) : descend(scene, g, light, x, y);
+    return state != UNKNOWN ? (geometry_visibility)(state - 1) : descend(scene, g, light, cell.number);
 }

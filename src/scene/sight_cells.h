@@ -9,16 +9,23 @@
 graze_status sight_cells_make(graze_scene *, const graze_report *);
 void sight_cells_destroy(struct sight_cells *);
 
-/* Finds out what is not known yet. */
-geometry_visibility sight_cells_find(const graze_scene *, int cells, vec3 point, int light);
+/* One of them. */
+typedef struct sight_cell {
+    const struct sight_grid *grid; /* of the surface; null: it has no cells */
+    int number;
+} sight_cell;
 
-/* What all points of a cell see of a light, in it the point of the surface (geometry_sight_of_patch); of what has no
- * cells, MIXED. */
-static inline geometry_visibility sight_cells_at(const graze_scene *scene, int64_t surface, vec3 point, int light) {
-    if (!scene->sight_cells || light >= (int)scene->first_copied || surface < 0 ||
-        surface >= (int64_t)scene->surface_count || scene->surfaces[surface].cells == 0)
-        return GEOMETRY_MIXED;
-    return sight_cells_find(scene, scene->surfaces[surface].cells - 1, point, light);
+/* The cell that a point of the surface is in, of its number from 1. */
+sight_cell sight_cells_find(const graze_scene *, int cells, vec3 point);
+
+static inline sight_cell sight_cells_at(const graze_scene *scene, int64_t surface, vec3 point) {
+    const bool own = surface >= 0 && surface < (int64_t)scene->surface_count;
+    const int cells = own ? scene->surfaces[surface].cells : 0;
+    return cells > 0 ? sight_cells_find(scene, cells, point) : (sight_cell){NULL, 0};
 }
+
+/* What all points of the cell see of a light (geometry_sight_of_patch), found out if it is not known yet; of what has
+ * no cells, MIXED. */
+geometry_visibility sight_cell_sees(const graze_scene *, sight_cell, int light);
 
 #endif

@@ -100,15 +100,32 @@ static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_sett
     }
 }
 
+static rgb error_of_exact(rgb value, rgb known_error, bool integrated) {
+    return estimate_with_known_error(rgb_multiply(known_error, known_error), value, integrated);
+}
+
+/* A single sample, which tells nothing of its error if another would differ. */
+static void estimate_once(const graze_trace_settings *s, uint64_t stream, estimate_parts *parts,
+                          estimate_sample *sample, void *user, graze_answer *answer) {
+    sampler points = sampler_start(sampler_key(s->seed, stream, 0), 0);
+    path_sample taken;
+    estimate_luck luck = ESTIMATE_NOISY;
+    sample(user, &points, &taken, &luck);
+    answer->value = estimate_not_negative(taken.radiance);
+    answer->standard_error = rgb_gray(GRAZE_UNKNOWN_ERROR);
+    if (luck == ESTIMATE_EXACT)
+        answer->standard_error = error_of_exact(answer->value, taken.known_error, taken.integrated);
+    answer->samples = 1;
+    if (parts)
+        *parts = (estimate_parts){taken.indirect, taken.albedo};
+}
+
 /* The first half has begun; the second one does where it is needed. */
 static void estimate_halves(estimate_half halves[ESTIMATE_HALVES], const graze_trace_settings *s, uint64_t stream,
                             const estimate_extras *extras, estimate_sample *sample, void *user, graze_answer *answer) {
-    bool exact = estimate_half_take(&halves[0], sample, user) == ESTIMATE_EXACT;
-    if (exact || s->samples == 1) {
+    if (estimate_half_take(&halves[0], sample, user) == ESTIMATE_EXACT) {
         answer->value = estimate_not_negative(halves[0].sum[0]);
-        rgb known = rgb_multiply(halves[0].known_error, halves[0].known_error);
-        answer->standard_error = exact ? estimate_with_known_error(known, answer->value, halves[0].integrated)
-                                       : rgb_gray(GRAZE_UNKNOWN_ERROR);
+        answer->standard_error = error_of_exact(answer->value, halves[0].known_error, halves[0].integrated);
         answer->samples = 1;
         return;
     }
@@ -140,9 +157,13 @@ static estimate_parts mean_parts(const estimate_half halves[ESTIMATE_HALVES]) {
 void estimate_with_extras(const graze_trace_settings *s, uint64_t stream, const estimate_extras *extras,
                           estimate_sample *sample, void *user, graze_answer *answer) {
     estimate_half halves[ESTIMATE_HALVES];
+    *answer = (graze_answer){.converged = 1};
+    if (s->samples == 1) {
+        estimate_once(s, stream, extras->parts, sample, user, answer);
+        return;
+    }
     estimate_half_begin(&halves[0], sampler_key(s->seed, stream, 0), extras->parts != NULL);
     halves[1].taken = 0;
-    *answer = (graze_answer){.converged = 1};
     estimate_halves(halves, s, stream, extras, sample, user, answer);
     if (extras->parts)
         *extras->parts = mean_parts(halves);

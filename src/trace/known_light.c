@@ -113,9 +113,8 @@ static void settle(path *p, int light, rgb reflected) {
 /* Whether cells can tell all of the light at the vertex: none comes weakened, by gloss, or from lights in copies. */
 static bool is_plain(const path *p, const vertex *v) {
     const graze_scene *scene = p->context->scene;
-    return v->surface >= 0 && v->surface < (int64_t)scene->surface_count && scene->surfaces[v->surface].cells > 0 &&
-           v->shading.specular_lobe == GRAZE_LOBE_NONE && !v->shading.transmits && !v->function && !v->leans &&
-           scene->light_count == scene->first_copied && p->wanted != WANTED_BENT &&
+    return v->shading.specular_lobe == GRAZE_LOBE_NONE && !v->shading.transmits && !v->function && !v->leans &&
+           scene->light_count == scene->first_copied && scene->sight_cells && p->wanted != WANTED_BENT &&
            context_samples_glows(p->context->settings);
 }
 
@@ -125,8 +124,9 @@ bool known_light_of_all(const path *p, const vertex *v, rgb *reflected) {
     int count = (int)scene->light_count;
     if (!is_plain(p, v))
         return false;
+    const sight_cell cell = sight_cells_at(scene, v->surface, v->point);
     for (int i = 0; i < count; i++) {
-        geometry_visibility found = sight_cells_at(scene, v->surface, v->point, i);
+        geometry_visibility found = sight_cell_sees(scene, cell, i);
         if (found == GEOMETRY_MIXED || scene->light_tree.group_of[i] < 0)
             return false;
         seen[i] = found == GEOMETRY_CLEAR;
@@ -136,8 +136,7 @@ bool known_light_of_all(const path *p, const vertex *v, rgb *reflected) {
         unshadowed_light whole;
         if (!seen[i])
             continue;
-        if (!has_one_role(&scene->lights[i]) ||
-            !unshadowed_light_at(scene, &v->shading, v->point, i, false, &whole))
+        if (!has_one_role(&scene->lights[i]) || !unshadowed_light_at(scene, &v->shading, v->point, i, false, &whole))
             return false;
         *reflected = rgb_add(*reflected, reflected_whole(p, v, &scene->lights[i], &whole, false));
     }
@@ -195,11 +194,12 @@ void known_light_add(path *p, const vertex *v, const light_choice *lights) {
     if (!light_choice_is_every_one(lights))
         return;
     bool at_once = p->scattered || p->context->settings->samples == 1;
+    const sight_cell cell = sight_cells_at(scene, v->surface, v->point);
     for (int i = 0; i < lights->every; i++) {
         if (light_expectation(lights, i) == 0)
             continue;
         bool glossy = !scene->lights[i].glow || !v->gloss_is_ambient;
-        geometry_visibility seen = sight_cells_at(scene, v->surface, v->point, i);
+        geometry_visibility seen = sight_cell_sees(scene, cell, i);
         if (!at_once) {
             add_after_a_look(p, v, i, glossy, seen);
         } else if (seen == GEOMETRY_BLOCKED) {

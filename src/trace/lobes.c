@@ -74,12 +74,14 @@ static bool finds_lights(const path *p, graze_lobe lobe) {
 /* How likely the path takes a lobe. One that may not go on is taken only to find lights. */
 static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
     double chance = goes_on ? survival(p, reflectance) : 0;
+    *ends = chance == 0;
+    if (*ends)
+        return finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : 0;
     if (context_samples_lights(p->context->settings) && p->depth > 0)
         chance = fmin(chance, fmax(rgb_max(rgb_multiply(p->throughput, reflectance)) / WORTH_FOLLOWING, 0.05));
     if (p->wanted == WANTED_BENT)
         chance *= LOOKS_ON;
-    *ends = chance == 0;
-    return *ends && finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : chance;
+    return chance;
 }
 
 /* The chances of what is reflected, each lobe by itself. */
