@@ -28,7 +28,9 @@ static bool offer_curved(query *q, unsigned primitive) {
         c->surface = surface;
         c->shines = s->shines;
         c->triangle = NULL;
-        if (query_in_reach(q, c))
+        /* Of the surface left, only the line's other crossing is here: however near to the tangent plane it is, it is
+         * not the origin, and a closed sphere or a tube shuts in what comes from its inside. */
+        if (surface == q->from || query_in_reach(q, c))
             return query_offer(q);
     }
     return false;

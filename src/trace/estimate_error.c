@@ -66,8 +66,17 @@ void estimate_share_halves(const estimate_half halves[ESTIMATE_HALVES], double s
         share[i] = alike ? (double)halves[i].taken / all : 0.5;
 }
 
+/* What a half's samples have added of a control, if it is more than nothing. */
+static double brightness_of_control(const estimate_half *h, int k) {
+    double sum = 0;
+    for (uint32_t i = 0; k < h->control_count && i << h->level < h->taken; i++)
+        sum += rgb_brightness(h->difference[i][k]);
+    return fmax(sum, 0);
+}
+
 /* Shadows of lights that are seen in part, as far as is known, may lie where no sample has been: about one part in as
- * many as there are samples. Not more than what is seen, and nothing where zeros are believed. */
+ * many as there are samples; and where no sample has been to any of the part that shines, as when most of a sun has
+ * set, all of it may be in shadow. Not more than what is seen, and nothing where zeros are believed. */
 static double unseen_shadows(const estimate_half halves[ESTIMATE_HALVES], double brightness) {
     double unseen = 0;
     if (brightness <= 0 && halves[0].taken + halves[1].taken >= ESTIMATE_ZEROS_BELIEVED)
@@ -81,7 +90,9 @@ static double unseen_shadows(const estimate_half halves[ESTIMATE_HALVES], double
             whole += known ? halves[i].whole[k] : 0;
             taken += halves[i].taken;
         }
-        if (lit >= whole || lit <= 0)
+        if (whole <= 0)
+            unseen += (brightness_of_control(&halves[0], k) + brightness_of_control(&halves[1], k)) / taken;
+        else if (lit >= whole || lit <= 0)
             unseen += whole / ((double)taken * taken);
     }
     return brightness > 0 ? fmin(unseen, brightness) : unseen;

@@ -11,6 +11,7 @@
 #include "base/vector.h"
 #include "graze/material.h"
 #include "graze/trace.h"
+#include "support/dice.h"
 #include "support/scene_text.h"
 
 #define LAMP  "void light bright 0 0 3 10 10 10 bright polygon lamp 0 0 12 -1 -1 3 -1 1 3 1 1 3 1 -1 3 "
@@ -205,11 +206,31 @@ static void panes_are_exact(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* What a closed ball's inside shows of what is outside: nothing. Where next to all of a light is below the surface's
+ * horizon, a few samples tell nothing of shadows: then the error tells. */
+static void closed_ball(void **state) {
+    (void)state;
+    graze_scene *scene = load("void light far 0 0 3 1000 1000 1000 far source sun 0 0 4 0 .2 1 3\n"
+                              "void light near 0 0 3 100 100 100 near sphere lamp 0 0 4 3 3 3 .5\n"
+                              "void plastic grey 0 0 5 .5 .5 .5 0 0 grey sphere ball 0 0 4 .1 .2 .3 1.37\n");
+    dice d = {5};
+    int lit = 0, wrong = 0;
+    for (uint64_t i = 0; i < 20000; i++) {
+        graze_ray ray = {.origin = {.3, .1, .2}, .direction = roll_direction(&d)};
+        graze_answer answer = ask(scene, GRAZE_STRATEGY_MIS, 0, 64, ray, i);
+        lit += answer.value.g > 0;
+        wrong += answer.value.g > 1.96 * answer.standard_error.g;
+    }
+    printf("# %d of 20000 are lit, %d of these more than their errors tell\n", lit, wrong);
+    assert_true(wrong <= 0.05 * lit);
+    graze_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(panes_are_exact), cmocka_unit_test(nothing_but_suns), cmocka_unit_test(nothing_but_a_lamp),
         cmocka_unit_test(something_black), cmocka_unit_test(hidden_lamp),      cmocka_unit_test(not_settled),
-        cmocka_unit_test(as_without),
+        cmocka_unit_test(as_without),      cmocka_unit_test(closed_ball),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
