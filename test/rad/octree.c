@@ -208,7 +208,7 @@ static void tells_of_damage_with_its_place(void **state) {
     put_head(&b, 1, -1, 4, "gray", 0);
     put_reals(&b, 0, NULL);
     put_integer(&b, 255, 1);
-    assert_refused(&b, "unknown type \"nonsense\"");
+    assert_refused(&b, "nonsense gray: unknown type \"nonsense\"");
     b = start;
     put_head(&b, 0, -1, 4, "gray", 0);
     put_reals(&b, 1, (const double[]){1});
