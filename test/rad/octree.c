@@ -194,6 +194,10 @@ static void tells_of_damage_with_its_place(void **state) {
     put_integer(&b, 1, 1);
     put_integer(&b, -5, 4);
     assert_refused(&b, "damaged: a leaf with -5 objects");
+    b = start;
+    put_integer(&b, 1, 1);
+    put_integer(&b, 1000, 4);
+    assert_refused(&b, "octree: the file ends too early (byte ");
     put_integer(&start, 0, 1);
     put_text(&start, "plastic");
     put_text(&start, "nonsense");
