@@ -70,13 +70,16 @@ static graze_status make_call(const workshop *w, const cal_expression *x, cal_no
     return GRAZE_OK;
 }
 
-static graze_status emit_trees(cal_graph *g, cal_code *code, cal_node *const *trees, size_t count) {
+static graze_status emit_trees(cal_graph *g, cal_code *code, const cal_request *request, cal_node *const *trees,
+                               size_t count) {
     cal_value **results = arena_allocate(g->memory, count * sizeof(void *));
     if (!results)
         return report_out_of_memory(g->report);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        g->expression = request ? request->expressions[i].text : NULL;
         if (!(results[i] = cal_graph_expression(g, trees[i])))
             return g->status;
+    }
     graze_status status = cal_graph_finish(g);
     return status ? status : cal_emit(code, g, results, count);
 }
@@ -106,7 +109,7 @@ static graze_status compile_trees(cal_code **made, const workshop *w, cal_node *
         g->real_count = code->real_count;
         g->channels = w->request ? w->request->channels : 0;
         g->is_constant = !w->request;
-        status = emit_trees(g, code, trees, count);
+        status = emit_trees(g, code, w->request, trees, count);
     }
     *made = status ? NULL : code;
     if (status)

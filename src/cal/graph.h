@@ -97,6 +97,7 @@ typedef struct cal_graph {
     bool is_constant;  /* what is built is to be a constant: there is no primitive */
     const graze_report *report;
     const place *where;
+    const char *expression; /* being built, or null: messages quote it */
     graze_status status;
     cal_graph_unit *units;
     int unit_count, unit_capacity;

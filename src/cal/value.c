@@ -108,8 +108,11 @@ cal_value *cal_value_failing(cal_graph *g, const cal_node *node, const char *for
     if (d)
         snprintf(message, sizeof message, "%s:%d:%d: %s", d->file ? d->file : "expression", node->line, node->column,
                  text);
+    else if (g->expression)
+        snprintf(message, sizeof message, "in the expression '%.80s', column %d: %s", g->expression, node->column,
+                 text);
     else
-        snprintf(message, sizeof message, "column %d of the expression: %s", node->column, text);
+        snprintf(message, sizeof message, "%s", text);
     cal_value *v = cal_value_new(g, CAL_V_FAIL, 0);
     if (!v)
         return NULL;

@@ -48,12 +48,29 @@ double geometry_placed_reach(const geometry *g, int64_t surface) {
     return double_max(vec3_max_abs(lower), vec3_max_abs(upper));
 }
 
+/* The outermost copy around the surface that replaces; or null, and *s is its shape. */
+static const geometry_placement *find_replacing(const geometry *g, int64_t surface, const shape **s) {
+    int group = 0, copy;
+    while ((copy = geometry_descend(g, group, &surface)) >= 0) {
+        const geometry_placement *placement = &g->trees[group].placements[copy];
+        if (placement->replaces)
+            return placement;
+        group = placement->group;
+    }
+    *s = &g->trees[group].shapes[surface];
+    return NULL;
+}
+
 bool geometry_shines(const geometry *g, int64_t surface) {
-    return geometry_find(g, surface).shape->shines;
+    const shape *s = NULL;
+    const geometry_placement *replacing = find_replacing(g, surface, &s);
+    return replacing ? replacing->shines : s->shines;
 }
 
 bool geometry_passes(const geometry *g, int64_t surface) {
-    return geometry_find(g, surface).shape->passes;
+    const shape *s = NULL;
+    const geometry_placement *replacing = find_replacing(g, surface, &s);
+    return replacing ? replacing->passes : s->passes;
 }
 
 /* The box around the box, as turned. */

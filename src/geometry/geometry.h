@@ -17,6 +17,8 @@ typedef struct geometry geometry;
 typedef struct geometry_placement {
     int group; /* index into the groups given to geometry_build */
     rad_transform transform;
+    bool replaces;       /* all in it are of one material, whatever it is in the group, so that for each of them, */
+    bool shines, passes; /* these are in place of the shape's; of copies in copies the outermost that replaces counts */
 } geometry_placement;
 
 /* Surfaces, and copies of other groups among them. What all copies have in common is there once.
@@ -66,6 +68,10 @@ typedef struct geometry_origin {
 } geometry_origin;
 
 geometry_origin geometry_find(const geometry *, int64_t surface);
+
+/* What the surface's shape says of itself, or a copy that replaces. */
+bool geometry_shines(const geometry *, int64_t surface);
+bool geometry_passes(const geometry *, int64_t surface);
 
 /* The nearest hit, or false. Safe on any number of threads. A ray that is not finite hits nothing.
  *

@@ -96,8 +96,6 @@ void geometry_copy_bounds(const geometry *, const geometry_placement *, vec3 *lo
 /* A surface of a copy, in the scene (shape_placed). */
 shape geometry_placed_shape(const geometry *, int64_t surface);
 double geometry_placed_reach(const geometry *, int64_t surface);
-bool geometry_shines(const geometry *, int64_t surface);
-bool geometry_passes(const geometry *, int64_t surface);
 
 /* The callbacks: exact tests of what Embree comes upon. */
 void geometry_filter_intersect(const struct RTCFilterFunctionNArguments *);

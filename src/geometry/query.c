@@ -47,8 +47,16 @@ static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
 /* False: the ray passes all by. */
 static bool trace(query *q) {
     const geometry_tree *tree = &q->geometry->trees[0];
-    q->scene = (visit){.tree = tree, .center = tree->center, .radius = tree->radius, .unit = 1 / tree->scale};
-    q->visit = &q->scene;
+    /* query_clip sets the rest. */
+    visit *v = &q->scene;
+    v->tree = tree;
+    v->transform = NULL;
+    v->replacing = NULL;
+    v->first = 0;
+    v->center = tree->center;
+    v->radius = tree->radius;
+    v->unit = 1 / tree->scale;
+    q->visit = v;
     if (!query_clip(q, &q->scene))
         return false;
     query_cast(q);

@@ -35,9 +35,10 @@ typedef struct miss {
 /* The group that Embree is in, on its way along the ray. */
 typedef struct visit {
     const geometry_tree *tree;
-    const rad_transform *transform; /* into the scene; null: it is the scene itself */
-    int64_t first;                  /* the number of its first surface */
-    vec3 center;                    /* of all in it, in the scene */
+    const rad_transform *transform;      /* into the scene; null: it is the scene itself */
+    const geometry_placement *replacing; /* the outermost copy around it that replaces; or null */
+    int64_t first;                       /* the number of its first surface */
+    vec3 center;                         /* of all in it, in the scene */
     double radius;
     double unit;  /* the length of Embree's unit, in the scene: a power of two in the scene itself */
     double start; /* distance along the ray of Embree's origin: where it enters the group, a little before */
@@ -88,6 +89,11 @@ static inline float query_embree_limit(const query *q, const visit *v) {
         limit = double_min(limit, q->nearest->distance +
                                       (query_float_error(v) + q->farthest_coincidence) / fabs(q->nearest->slope));
     return (float)((limit - v->start) / v->unit);
+}
+
+/* Whether what has been met in a copy shines, and would where it is not replaced. */
+static inline bool query_shines(const query *q, bool own) {
+    return q->visit->replacing ? q->visit->replacing->shines : own;
 }
 
 /* Whether two crossings are of surfaces that are meant to coincide. */

@@ -10,6 +10,7 @@ visit query_visit_copy(const query *q, unsigned primitive, rad_transform *both) 
     const geometry_placement *placement = &tree->placements[index];
     visit v = {.tree = &q->geometry->trees[placement->group],
                .transform = &placement->transform,
+               .replacing = outer->replacing || !placement->replaces ? outer->replacing : placement,
                .first = outer->first + tree->firsts[index]};
     if (outer->transform) {
         *both = rad_transform_then(&placement->transform, outer->transform);

@@ -14,6 +14,7 @@ static bool offer_curved(query *q, unsigned primitive) {
     shape placed;
     if (v->transform) {
         placed = shape_placed(s, v->transform);
+        placed.shines = query_shines(q, s->shines);
         s = &placed;
     }
     shape_crossings crossings = shape_cross(s, q->origin, q->direction, surface == q->from);

@@ -94,7 +94,11 @@ static bool offer_met(query *q, const geometry_triangle *triangle, vec3 normal, 
     c->slope = slope;
     c->surface = q->visit->first + triangle->surface;
     c->shines = triangle->shines;
-    c->triangle = q->visit->transform ? NULL : triangle;
+    c->triangle = triangle;
+    if (q->visit->transform) {
+        c->shines = query_shines(q, triangle->shines);
+        c->triangle = NULL;
+    }
     return query_in_reach(q, c) && query_offer(q);
 }
 

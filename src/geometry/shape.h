@@ -26,7 +26,7 @@ typedef struct shape {
     shape_kind kind;
     bool inward; /* bubble, cup, tube: the normal points inward */
     bool shines; /* of surfaces that coincide, one that shines is hit; to be set before geometry_build */
-    bool passes; /* light may go straight through, in some copy at least; to be set before geometry_build */
+    bool passes; /* light may go straight through; to be set before geometry_build */
     union {
         struct {
             const vec3 *vertices;           /* the outline; more stand behind it where triangles need them */

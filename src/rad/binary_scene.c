@@ -129,8 +129,7 @@ static graze_status read_primitive(binary_scene *s, unsigned type) {
         return status;
     if (raw.type == RAD_UNKNOWN) {
         raw.broken = true;
-        status = rad_reader_complain(s->reader, raw.where, "unknown type \"%s\"",
-                                     rad_show(s->type_names[type], strlen(s->type_names[type])).text);
+        status = rad_complain_of_type(s->reader, raw.where, s->type_names[type], raw.id);
     } else if (raw.type == RAD_ALIAS) {
         status = finish_alias(s, &raw);
     }

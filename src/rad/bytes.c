@@ -107,9 +107,11 @@ void rad_bytes_skip_tree(rad_bytes *b, int object_size) {
         uint64_t kind = rad_bytes_count(b, 1);
         if (kind == FULL) {
             int64_t objects = rad_bytes_integer(b, object_size);
-            if (objects < 0 || objects > b->end - b->next)
+            int64_t left = b->end - b->next;
+            if (objects < 0)
                 rad_bytes_fail(b, "damaged: a leaf with %lld objects", (long long)objects);
-            rad_bytes_skip(b, (size_t)objects * (size_t)object_size);
+            else
+                rad_bytes_skip(b, objects > left ? (size_t)left + 1 : (size_t)objects * (size_t)object_size);
         } else if (kind == TREE) {
             nodes += 8;
         } else if (kind != EMPTY) {

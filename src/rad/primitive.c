@@ -59,26 +59,6 @@ static graze_status read_modifier(rad_source *s, rad_raw *raw) {
     return GRAZE_OK;
 }
 
-static graze_status read_type(rad_source *s, rad_raw *raw) {
-    rad_reader *reader = s->reader;
-    rad_word word;
-    graze_status status = need_word(s, &word, raw, "type");
-    if (status)
-        return status;
-    if (word_is(&word, "alias")) {
-        raw->type = RAD_ALIAS;
-    } else if (word_is(&word, rad_type_name(reader->last_type)) ||
-               rad_type_find(word.text, word.length, &reader->last_type)) {
-        raw->type = (int)reader->last_type;
-    } else {
-        raw->type = RAD_UNKNOWN;
-        raw->broken = true;
-        place here = rad_source_place(s, word.line, word.column);
-        status = rad_reader_complain(reader, &here, "unknown type \"%s\"", SHOW(&word));
-    }
-    return status;
-}
-
 static bool is_modifier(const rad_raw *raw) {
     return raw->type >= RAD_TYPE_COUNT || !rad_type_is_surface((rad_type)raw->type);
 }
@@ -107,6 +87,35 @@ static graze_status read_id(rad_source *s, rad_raw *raw) {
         raw->broken = true;
     }
     return status ? status : keep_text(reader, &word, &raw->id);
+}
+
+/* The complaint names the primitive, so its name is read first. */
+static graze_status read_unknown_type(rad_source *s, rad_raw *raw, const rad_word *word) {
+    rad_reader *reader = s->reader;
+    place here = rad_source_place(s, word->line, word->column);
+    rad_shown type = rad_show(word->text, word->length);
+    raw->type = RAD_UNKNOWN;
+    raw->broken = true;
+    graze_status status = read_id(s, raw);
+    graze_status complaint = rad_complain_of_type(reader, &here, type.text, raw->id);
+    return status ? status : complaint;
+}
+
+static graze_status read_type_and_id(rad_source *s, rad_raw *raw) {
+    rad_reader *reader = s->reader;
+    rad_word word;
+    graze_status status = need_word(s, &word, raw, "type");
+    if (status)
+        return status;
+    if (word_is(&word, "alias")) {
+        raw->type = RAD_ALIAS;
+    } else if (word_is(&word, rad_type_name(reader->last_type)) ||
+               rad_type_find(word.text, word.length, &reader->last_type)) {
+        raw->type = (int)reader->last_type;
+    } else {
+        return read_unknown_type(s, raw, &word);
+    }
+    return read_id(s, raw);
 }
 
 static graze_status read_count(rad_source *s, const rad_raw *raw, const char *what, uint32_t *count) {
@@ -295,8 +304,6 @@ graze_status rad_source_primitive(rad_source *s, int line, int column, rad_raw *
     s->any = true;
     graze_status status = read_modifier(s, raw);
     if (!status)
-        status = read_type(s, raw);
-    if (!status)
-        status = read_id(s, raw);
+        status = read_type_and_id(s, raw);
     return status ? status : read_arguments(s, raw);
 }

@@ -48,6 +48,17 @@ rad_shown rad_show(const char *text, size_t length) {
     return shown;
 }
 
+graze_status rad_complain_of_type(rad_reader *reader, const place *where, const char *type, const char *id) {
+    rad_shown shown = rad_show(type, strlen(type));
+    char subject[2 * sizeof(rad_shown)];
+    place here = *where;
+    if (id) {
+        snprintf(subject, sizeof subject, "%s %s", shown.text, rad_show(id, strlen(id)).text);
+        here.subject = subject;
+    }
+    return rad_reader_complain(reader, &here, "unknown type \"%s\"", shown.text);
+}
+
 place *rad_keep_place(rad_reader *reader, place where) {
     place *kept = arena_allocate(reader->memory, sizeof *kept);
     if (kept)

@@ -67,6 +67,9 @@ rad_primitive_name rad_describe(const rad_raw *);
 graze_status rad_reader_complain(rad_reader *, const place *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* The same of a type that there is not, of the primitive of this name (null where it has none). */
+graze_status rad_complain_of_type(rad_reader *, const place *where, const char *type, const char *id);
+
 /* A word of the input as messages show it: cut where it is long, without what would upset a terminal. */
 typedef struct rad_shown {
     char text[80];

@@ -23,12 +23,12 @@ static const char *what_is_wrong(const char *word) {
 }
 
 static graze_status command_line_error(const rad_job *j, const char *word) {
-    return report_error(j->reader->report, j->context->parent, "xform: command line error at '%s': %s",
+    return report_error(j->reader->report, j->where, "xform: command line error at '%s': %s",
                         rad_show(word, strlen(word)).text, what_is_wrong(word));
 }
 
 static graze_status too_many_instances(const rad_job *j) {
-    return report_error(j->reader->report, j->context->parent, "xform: more than %d instances", INSTANCES_MOST);
+    return report_error(j->reader->report, j->where, "xform: more than %d instances", INSTANCES_MOST);
 }
 
 /* Reads the options before the transform; *used tells how many words they are. */
@@ -41,13 +41,13 @@ static graze_status read_options(const rad_job *j, const char *const *words, int
         if (!strcmp(option, "-m") && i + 1 < count) {
             ++i;
             if (!filter->modifier && !(filter->modifier = arena_copy_text(memory, words[i], strlen(words[i]))))
-                return report_out_of_memory_at(j->reader->report, j->context->parent);
+                return report_out_of_memory_at(j->reader->report, j->where);
         } else if (!strcmp(option, "-n") && i + 1 < count) {
             ++i;
             if (!filter->prefix)
                 filter->prefix = words[i];
             else if (!(filter->prefix = rad_join_names(memory, filter->prefix, words[i])))
-                return report_out_of_memory_at(j->reader->report, j->context->parent);
+                return report_out_of_memory_at(j->reader->report, j->where);
         } else if (!strcmp(option, "-c")) {
             *expand = false;
         } else if (!strcmp(option, "-e")) {
@@ -79,12 +79,12 @@ static graze_status run_once(rad_job *j, const char *const *words, int count) {
     if (used < count && words[used][0] == '-')
         return command_line_error(j, words[used]);
     if (!in_range)
-        return report_error(report, j->context->parent, "xform: transform out of range");
+        return report_error(report, j->where, "xform: transform out of range");
     rad_filter_sink filtered = {j->reader, &filter, j->sink};
     if (used == count && j->input)
         return rad_job_filter_list(j, j->input, &filtered);
     if (used == count)
-        report_warning(report, j->context->parent, "xform: no file, and nothing on standard input");
+        report_warning(report, j->where, "xform: no file, and nothing on standard input");
     for (; used < count && !status; ++used)
         status = rad_job_filter_file(j, words[used], expand, &filtered);
     return status;
@@ -169,7 +169,7 @@ static long all_instances(const char *const *words, int count) {
 static graze_status run_array(rad_job *j, const char *const *words, int count, int at, const nesting *here) {
     int n = at + 1 < count ? array_count(words[at + 1]) : 0;
     if (n == 0)
-        return report_error(j->reader->report, j->context->parent, "xform: missing count for -a option");
+        return report_error(j->reader->report, j->where, "xform: missing count for -a option");
     if (j->instances + all_instances(words, count) > INSTANCES_MOST)
         return too_many_instances(j);
     const char **instance = malloc(((size_t)count + 2) * sizeof *instance);
@@ -177,7 +177,7 @@ static graze_status run_array(rad_job *j, const char *const *words, int count, i
     char *name = malloc(room);
     graze_status status = GRAZE_OK;
     if (!instance || !name)
-        status = report_out_of_memory_at(j->reader->report, j->context->parent);
+        status = report_out_of_memory_at(j->reader->report, j->where);
     for (int i = 0; instance && name && i < n && !status; ++i) {
         char digits[NUMBER_ROOM];
         snprintf(digits, sizeof digits, "%d", i);
@@ -216,9 +216,9 @@ static graze_status split_line(const rad_job *j, arena *memory, const char *line
         if (kept)
             words[(*count)++] = kept;
         else if (outcome == RAD_WORD || outcome == RAD_WORD_NO_MEMORY)
-            status = report_out_of_memory_at(j->reader->report, j->context->parent);
+            status = report_out_of_memory_at(j->reader->report, j->where);
         else
-            status = report_error(j->reader->report, j->context->parent, "xform: bad line in argument file: %s",
+            status = report_error(j->reader->report, j->where, "xform: bad line in argument file: %s",
                                   rad_show(line, length).text);
     }
     rad_words_end(&reading);
@@ -234,7 +234,7 @@ static graze_status run_line(rad_job *j, arena *memory, const char *const *words
     size_t room = longest(words, count) + line->length + NUMBER_ROOM;
     char *name = arena_allocate(memory, room);
     if (!instance || !text || !name)
-        return report_out_of_memory_at(j->reader->report, j->context->parent);
+        return report_out_of_memory_at(j->reader->report, j->where);
     int instance_count = at;
     memcpy(instance, words, (size_t)at * sizeof *instance);
     graze_status status = split_line(j, memory, text, line->length, instance, &instance_count);
@@ -250,6 +250,7 @@ static graze_status run_line(rad_job *j, arena *memory, const char *const *words
 static graze_status run_lines(rad_job *j, const char *const *words, int count, int at, const char *name,
                               const nesting *here) {
     const graze_report *report = j->reader->report;
+    const place *where = j->where;
     graze_status status = GRAZE_OK;
     rad_words lines;
     rad_words_begin(&lines, here->text->bytes, here->text->length);
@@ -258,18 +259,19 @@ static graze_status run_lines(rad_job *j, const char *const *words, int count, i
         rad_word line;
         rad_word_status outcome = rad_words_command(&lines, &line);
         if (outcome != RAD_WORD) {
-            status = outcome == RAD_WORD_ZERO
-                         ? report_error(report, j->context->parent, "xform: %s is no argument file", name)
-                         : report_out_of_memory_at(report, j->context->parent);
+            status = outcome == RAD_WORD_ZERO ? report_error(report, j->where, "xform: %s is no argument file", name)
+                                              : report_out_of_memory_at(report, j->where);
         } else if (line.length > 0 && line.text[0] != '#') {
             arena *memory = arena_create();
+            j->where = &(place){.file = name, .line = line.line, .column = line.column, .parent = where};
             status = memory ? run_line(j, memory, words, count, at, &line, number++, here)
-                            : report_out_of_memory_at(report, j->context->parent);
+                            : report_out_of_memory_at(report, j->where);
             arena_destroy(memory);
+            j->where = where;
         }
     }
     if (!status && number == 0)
-        status = report_error(report, j->context->parent, "xform: empty argument file \"%s\"", name);
+        status = report_error(report, j->where, "xform: empty argument file \"%s\"", name);
     rad_words_end(&lines);
     return status;
 }
@@ -287,7 +289,7 @@ static bool is_being_read(const nesting *n, const whole_file *text, int behind) 
 static graze_status run_text(rad_job *j, const char *const *words, int count, int at, const char *name,
                              const nesting *here) {
     if (is_being_read(here->outer, here->text, here->behind))
-        return report_error(j->reader->report, j->context->parent, "xform: argument file %s names itself", name);
+        return report_error(j->reader->report, j->where, "xform: argument file %s names itself", name);
     return run_lines(j, words, count, at, name, here);
 }
 
@@ -300,12 +302,12 @@ static graze_status run_file(rad_job *j, const char *const *words, int count, in
         return run_text(j, words, count, at, "standard input", here);
     }
     if (at + 1 >= count || words[at + 1][0] == '-')
-        return report_error(report, j->context->parent, "xform: missing file for -f option");
+        return report_error(report, j->where, "xform: missing file for -f option");
     const char *path = rad_path_resolve(j->reader->memory, j->context->directory, words[at + 1]);
     if (!path)
-        return report_out_of_memory_at(report, j->context->parent);
+        return report_out_of_memory_at(report, j->where);
     whole_file text;
-    graze_status status = whole_file_read_path(&text, path, path, j->context->parent, report);
+    graze_status status = whole_file_read_path(&text, path, path, j->where, report);
     if (status)
         return status;
     here->text = &text;
@@ -321,7 +323,7 @@ static graze_status run(rad_job *j, const char *const *words, int count, const n
         return run_once(j, words, count);
     nesting here = {.outer = outer, .depth = outer ? outer->depth + 1 : 1};
     if (here.depth > DEPTH_MOST)
-        return report_error(j->reader->report, j->context->parent,
+        return report_error(j->reader->report, j->where,
                             "xform: arrays and argument files are nested more than %d deep", DEPTH_MOST);
     return file ? run_file(j, words, count, file, &here) : run_array(j, words, count, array, &here);
 }
@@ -354,6 +356,7 @@ graze_status rad_xform_run(rad_reader *reader, const rad_pipeline *pipeline, con
         output->count = 0;
         const rad_job j = {.reader = reader,
                            .context = context,
+                           .where = context->parent,
                            .command = command,
                            .sink = last ? sink : &(rad_sink){rad_list_append, &kept},
                            .input = input,

@@ -40,7 +40,7 @@ graze_status rad_job_filter_list(const rad_job *j, const rad_list *l, rad_filter
         if (raw.real_count && !j->once) {
             double *reals = arena_allocate(j->reader->memory, raw.real_count * sizeof *reals);
             if (!reals)
-                return report_out_of_memory_at(j->reader->report, j->context->parent);
+                return report_out_of_memory_at(j->reader->report, j->where);
             memcpy(reals, raw.reals, raw.real_count * sizeof *reals);
             raw.reals = reals;
         }
@@ -56,11 +56,10 @@ static graze_status read_file(const rad_job *j, const char *name, bool expand, c
     bool found;
     const char *path = rad_path_find(memory, j->context->directory, name, &found);
     if (!path)
-        return report_out_of_memory_at(report, j->context->parent);
+        return report_out_of_memory_at(report, j->where);
     if (!found) {
         errno = ENOENT;
-        return report_file_error(report, j->context->parent, "xform: cannot find file \"%s\"",
-                                 rad_show(name, strlen(name)).text);
+        return report_file_error(report, j->where, "xform: cannot find file \"%s\"", rad_show(name, strlen(name)).text);
     }
     if (!strncmp(path, "./", 2))
         path += 2;
@@ -70,7 +69,7 @@ static graze_status read_file(const rad_job *j, const char *name, bool expand, c
         bool own;
         inner.directory = rad_path_directory(memory, path, &own);
         if (!inner.directory && !own)
-            return report_out_of_memory_at(report, j->context->parent);
+            return report_out_of_memory_at(report, j->where);
     }
     return rad_reader_file(j->reader, path, &inner, sink);
 }
@@ -84,7 +83,7 @@ static graze_status keep_file(rad_job *j, const char *name, bool expand, const r
     /* It may be the numbered name of an array's instance or a word of an argument file, which do not last. */
     const char *kept_name = arena_copy_text(j->reader->memory, name, strlen(name));
     if (!kept_name)
-        return report_out_of_memory_at(j->reader->report, j->context->parent);
+        return report_out_of_memory_at(j->reader->report, j->where);
     int room = j->next_file;
     j->next_file = (room + 1) % RAD_KEPT_FILES;
     if (j->file_count < RAD_KEPT_FILES)

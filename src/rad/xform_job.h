@@ -18,6 +18,7 @@ typedef struct rad_list {
 typedef struct rad_job {
     rad_reader *reader;
     const rad_context *context;
+    const place *where;   /* for messages: where the command is written, or the line of its argument file */
     const place *command; /* what brings in files */
     const rad_sink *sink;
     rad_list *input;           /* its standard input; or null: there is nothing on it */

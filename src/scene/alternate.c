@@ -15,13 +15,15 @@ int scene_nothing(scene_builder *b) {
 
 graze_status scene_read_alternate(scene_builder *b, const rad_primitive *p, int *alternate) {
     const char *name = p->string_count > 0 ? p->strings[0] : "void";
-    if (!strcmp(name, "void")) {
+    const bool is_void = !strcmp(name, "void");
+    int modifier = is_void ? RAD_VOID : rad_modifier_before(b->scene->primitives, p, name);
+    if (modifier == RAD_VOID && !is_void)
+        rad_primitive_warning(b->report, p, "there is no modifier '%.64s' before it: as in Radiance, that is void",
+                              name);
+    if (modifier == RAD_VOID) {
         *alternate = scene_nothing(b);
         return GRAZE_OK;
     }
-    int modifier = rad_modifier_before(b->scene->primitives, p, name);
-    if (modifier == RAD_VOID)
-        return rad_primitive_error(b->report, p, "there is no modifier '%.64s' before it", name);
     *alternate = scene_material_of_modifier(b, modifier);
     if (*alternate < 0)
         return b->status;

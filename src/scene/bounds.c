@@ -57,7 +57,8 @@ static void add_copies(collection *c, geometry_group *group, const scene_part *p
         const bool whole = all || copy->replaces;
         const int of = copy->part + (whole ? (int)c->scene->part_count : 0);
         c->placed[of] = true;
-        *c->placements++ = (geometry_placement){of, part->placements[k].transform};
+        *c->placements++ =
+            (geometry_placement){.group = of, .transform = part->placements[k].transform, .replaces = whole};
     }
     group->placement_count = (size_t)(c->placements - group->placements);
 }

@@ -54,7 +54,4 @@ void scene_add_copied_lights(scene_builder *);
 /* Builds what the instances and meshes of all parts are copies of; graze_scene.parts are then filled in. */
 void scene_add_copies(scene_builder *);
 
-/* Light may pass all that is held by copies of these parts (by their numbers); of what is in them, too: it is added. */
-void scene_let_light_through(graze_scene *, bool *held);
-
 #endif

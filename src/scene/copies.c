@@ -126,14 +126,17 @@ static bool lacks_materials(const rad_mesh *mesh) {
 }
 
 /* An instance's or mesh's own modifier, for all that is in it. */
-static void replace_materials(scene_builder *b, scene_copy *copy, int primitive, const shape *any, bool in_scene) {
+static void replace_materials(scene_builder *b, scene_copy *copy, geometry_placement *placement, int primitive,
+                              const shape *any, bool in_scene) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[primitive];
     int material = scene_material_of_surface(b, p);
-    copy->replaces = true;
+    copy->replaces = placement->replaces = true;
     if (material < 0)
         return;
     const scene_material *m = &scene->materials[material];
+    placement->shines = scene_material_emits(m);
+    placement->passes = scene_material_is_pane(scene, m);
     if (in_scene && scene_material_emits(m) && !rgb_is_black(m->light.radiance) &&
         !(m->light.glow && m->light.glow_radius <= 0))
         scene_fail(b, rad_primitive_error(b->report, p, "%s cannot be lights: its modifier is one",
@@ -147,11 +150,12 @@ static void add_copy(scene_builder *b, size_t number, scene_part *part, const ra
     const rad_primitive *p = &scene->primitives[from->primitive];
     const rad_part *of = &rad_scene_parts(scene->description, &(size_t){0})[from->part];
     scene_copy *copy = &part->copies[part->copy_count];
-    part->placements[part->copy_count++] = (geometry_placement){from->part, from->transform};
+    geometry_placement *placement = &part->placements[part->copy_count++];
+    *placement = (geometry_placement){.group = from->part, .transform = from->transform};
     *copy = (scene_copy){.part = from->part};
     scene_part *copied = &scene->parts[from->part];
     if (p->modifier != RAD_VOID)
-        replace_materials(b, copy, from->primitive, part->shapes, number == 0);
+        replace_materials(b, copy, placement, from->primitive, part->shapes, number == 0);
     else if (of->mesh && !copied->own_materials && lacks_materials(of->mesh))
         scene_fail(b, rad_primitive_error(
                           b->report, p, "its modifier is void, but \"%s\" has triangles without a material", of->path));
@@ -170,36 +174,6 @@ static void add_copies_of_part(scene_builder *b, size_t number, const rad_part *
     }
     for (size_t i = 0; i < from->copies; i++)
         add_copy(b, number, part, &copies[from->first_copy + i]);
-}
-
-void scene_let_light_through(graze_scene *scene, bool *held) {
-    for (size_t i = 1; i < scene->part_count; i++) {
-        const scene_part *part = &scene->parts[i];
-        if (!held[i])
-            continue;
-        for (size_t k = 0; k < part->surface_count; k++)
-            part->shapes[k].passes = true;
-        for (size_t k = 0; k < part->copy_count; k++)
-            held[part->copies[k].part] = true;
-    }
-}
-
-/* Where a copy has light go through all that is in it, whatever that is made of, its shapes may. */
-static void let_light_through_copies(scene_builder *b) {
-    graze_scene *scene = b->scene;
-    bool *held = calloc(scene->part_count, sizeof *held);
-    if (!held) {
-        scene_fail(b, report_out_of_memory(b->report));
-        return;
-    }
-    for (size_t i = 0; i < scene->part_count; i++)
-        for (size_t k = 0; k < scene->parts[i].copy_count; k++) {
-            const scene_copy *copy = &scene->parts[i].copies[k];
-            if (copy->replaces && scene_material_is_pane(scene, &scene->materials[copy->surface.material]))
-                held[copy->part] = true;
-        }
-    scene_let_light_through(scene, held);
-    free(held);
 }
 
 /* Users before what they use, so that it is known of meshes whether their own materials are needed. */
@@ -225,6 +199,4 @@ void scene_add_copies(scene_builder *b) {
         if (b->status != GRAZE_SYSTEM_ERROR)
             add_copies_of_part(b, i, &from[i]);
     }
-    if (b->status == GRAZE_OK && scene->has_panes)
-        let_light_through_copies(b);
 }

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "scene/bounds.h"
-#include "scene/builder.h"
 #include "scene/surface.h"
 
 /* As many materials of antimatter may a scene have: a bit for each. */
@@ -19,7 +18,6 @@ struct scene_cuts {
     int count;             /* of antimatters */
     int materials[MOST];   /* of each its material */
     uint64_t *cut_by;      /* by modifier: the antimatters that cut its surfaces */
-    bool *held;            /* by part: copies of it let light pass all that is in them */
     shape *bounds;         /* the scene's own surfaces of theirs, those of each behind one another */
     scene_bounds of[MOST]; /* the bounds of each: those of two may coincide */
 };
@@ -59,14 +57,14 @@ static bool let_pass(const graze_scene *scene, const scene_surface *surfaces, sh
 }
 
 /* The same of copies by their own modifiers: then light may pass all that is in them. */
-static bool let_pass_copies(graze_scene *scene, const scene_part *part, wanted w) {
+static bool let_pass_copies(const graze_scene *scene, const scene_part *part, wanted w) {
     bool dark = true;
     for (size_t i = 0; i < part->copy_count; i++) {
         const scene_copy *copy = &part->copies[i];
         if (!copy->replaces || !is_wanted(scene, &copy->surface, w))
             continue;
         dark = dark && copy->surface.light < 0;
-        scene->cuts->held[copy->part] = true;
+        part->placements[i].passes = true;
     }
     return dark;
 }
@@ -151,8 +149,7 @@ graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report
     memcpy(cuts->materials, materials, sizeof materials[0] * (size_t)count);
     cuts->cut_by = calloc(scene->primitive_count + 1, sizeof *cuts->cut_by);
     cuts->bounds = calloc(scene->surface_count + 1, sizeof *cuts->bounds);
-    cuts->held = calloc(scene->part_count + 1, sizeof *cuts->held);
-    if (!cuts->cut_by || !cuts->bounds || !cuts->held)
+    if (!cuts->cut_by || !cuts->bounds)
         return report_out_of_memory(report);
     scene->has_panes = true;
     graze_status status = GRAZE_OK;
@@ -163,7 +160,6 @@ graze_status scene_cuts_make(graze_scene *scene, int threads, const graze_report
         if (status == GRAZE_OK)
             status = note_cut(scene, i, report);
     }
-    scene_let_light_through(scene, cuts->held);
     leave_mirrors_out(scene);
     return status;
 }
@@ -175,7 +171,6 @@ void scene_cuts_destroy(scene_cuts *cuts) {
         scene_bounds_destroy(&cuts->of[i]);
     free(cuts->cut_by);
     free(cuts->bounds);
-    free(cuts->held);
     free(cuts);
 }
 

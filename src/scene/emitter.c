@@ -1,24 +1,34 @@
 /* The arguments of light, illum, glow and spotlight. */
 #include "scene/emitter.h"
 
+#include <math.h>
+
 #include "base/angle.h"
 
 bool emitter_is(rad_type type) {
     return type == RAD_LIGHT || type == RAD_ILLUM || type == RAD_GLOW || type == RAD_SPOTLIGHT;
 }
 
+double emitter_full_angle(double degrees, const rad_primitive *p, const graze_report *report) {
+    if (!(degrees > 360))
+        return degrees;
+    double rest = fmod(degrees, 720), angle = rest > 360 ? 720 - rest : rest;
+    rad_primitive_warning(report, p, "an angle of %g degrees, above 360, is one of %g degrees, as in Radiance", degrees,
+                          angle);
+    return angle;
+}
+
 static graze_status read_spot(scene_light *light, const rad_primitive *material, const graze_report *report) {
     const double *a = material->reals;
-    double cone = a[3];
     vec3 aim = vec3_make(a[4], a[5], a[6]);
-    if (!(cone > 0 && cone <= 360))
-        return rad_primitive_error(report, material, "the cone's full angle must be in (0, 360] degrees");
+    if (!(a[3] > 0))
+        return rad_primitive_error(report, material, "the cone's full angle must be above 0");
     if (vec3_max_abs(aim) == 0)
         return rad_primitive_error(report, material, "the aim vector is null");
     light->spot = true;
     light->spot_axis = vec3_safe_normalize(aim);
     light->spot_focus = vec3_safe_length(aim);
-    light->spot_cosine = cos(angle_radians(cone / 2));
+    light->spot_cosine = cos(angle_radians(emitter_full_angle(a[3], material, report) / 2));
     return GRAZE_OK;
 }
 

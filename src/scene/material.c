@@ -156,7 +156,8 @@ static graze_status read_antimatter(scene_builder *b, scene_material *material, 
     material->kind = SCENE_NOTHING;
     material->cuts = true;
     material->modifiers = NULL;
-    if (!strcmp(p->strings[0], "void"))
+    /* One that is not there is told of with all that it cuts. */
+    if (rad_modifier_before(b->scene->primitives, p, p->strings[0]) == RAD_VOID)
         return GRAZE_OK;
     return scene_read_alternate(b, p, &material->alternate);
 }

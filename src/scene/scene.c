@@ -9,6 +9,7 @@
 #include "scene/balls.h"
 #include "scene/builder.h"
 #include "scene/cuts.h"
+#include "scene/emitter.h"
 #include "scene/light_pattern.h"
 #include "scene/mist.h"
 #include "scene/model_choice.h"
@@ -129,16 +130,18 @@ static void add_source(scene_builder *b, int primitive) {
         return;
     }
     const double *a = p->reals;
-    if (!(a[3] > 0 && a[3] <= 360) || !(vec3_max_abs(vec3_make(a[0], a[1], a[2])) > 0)) {
-        scene_fail(b, rad_primitive_error(b->report, p,
-                                          "needs 4 reals: a direction that is not null, and an angle in (0, 360]"));
+    if (!(a[3] > 0) || !(vec3_max_abs(vec3_make(a[0], a[1], a[2])) > 0)) {
+        scene_fail(b, rad_primitive_error(b->report, p, "its direction must not be null, nor its angle 0 or less"));
         return;
     }
+    const double angle = emitter_full_angle(a[3], p, b->report);
+    if (angle == 0)
+        return;
     scene_light light = b->scene->materials[material].light;
     light.surface = -1;
     light.primitive = primitive;
     light.center = vec3_safe_normalize(vec3_make(a[0], a[1], a[2]));
-    light.half_angle = angle_radians(a[3] / 2);
+    light.half_angle = angle_radians(angle / 2);
     if (light.spot) {
         rad_primitive_warning(b->report, p, "a source is infinitely far away: the spotlight's cone is ignored");
         light.spot = false;

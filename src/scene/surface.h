@@ -19,7 +19,7 @@ static inline const scene_material *scene_material_at(const graze_scene *scene, 
 /* Whether light may go straight through the surface (shape.passes). */
 static inline bool scene_surface_passes(const graze_scene *scene, int64_t number) {
     return number < (int64_t)scene->surface_count ? scene->shapes[number].passes
-                                                  : geometry_find(scene->geometry, number).shape->passes;
+                                                  : geometry_passes(scene->geometry, number);
 }
 
 /* Whether the surface's material is written for another place than the scene: that of the transform, which leads into

@@ -68,10 +68,12 @@ fails "another scene" 1 "begun with another scene" "" "${go_on[@]}" --samples 40
 fails "another view" 1 "another view" "" "${go_on[@]}" --samples 400 -vp 1 0 0 room.rad
 fails "another size" 1 "begun as 40 x 30 pixels" "" "${go_on[@]}" --samples 400 -x 41 -y 30 -pa 0 room.rad
 fails "layers that it has not" 1 "without the layers" "" "$gpict" -r kept -o x.exr -ab 2 --samples 400 room.rad
-fails "no checkpoint" 1 "nowhere.checkpoint" "" "$gpict" -r nowhere room.rad
-fails "a picture for a checkpoint" 1 "whole.hdr.checkpoint" "" "$gpict" -r whole.hdr room.rad
+fails "no checkpoint" 1 "nowhere: nothing to go on with: neither it nor its checkpoint, nowhere.checkpoint, is there" "" "$gpict" -r nowhere room.rad
+fails "a picture for a checkpoint" 1 "whole.hdr: nothing to go on with: it has no checkpoint beside it, whole.hdr.checkpoint, and is none" "" "$gpict" -r whole.hdr room.rad
 head -c 1000 kept >short
-fails "a checkpoint cut short" 1 "damaged" "" "$gpict" -r short room.rad
+fails "a checkpoint cut short" 1 "short: this checkpoint is damaged" "" "$gpict" -r short room.rad
+head -c 5 kept >shorter
+fails "a checkpoint cut to nearly nothing" 1 "shorter: nothing to go on with: it has no checkpoint beside it, shorter.checkpoint, and is none itself, or one whose beginning is damaged" "" "$gpict" -r shorter room.rad
 check "and it is still there" test -s kept
 grep -v '^#' room.rad | sed 's/  */ /g' >same.rad
 cp kept again

@@ -32,6 +32,10 @@ static rad_transform transform(const char *text) {
     return t;
 }
 
+static geometry_placement placed_at(int group, rad_transform t) {
+    return (geometry_placement){.group = group, .transform = t};
+}
+
 /* The shape as a scene without copies would have it. */
 static shape unfolded(const shape *s, const rad_transform *t) {
     if (s->kind != SHAPE_POLYGON)
@@ -75,13 +79,13 @@ static void roll_nest(nest *n, uint64_t seed) {
         n->middle[i] = make_sphere(roll_in_cube(&d, 30), roll_between(&d, 0.5, 3));
     for (int i = 0; i < OUTER; i++)
         n->outer[i] = make_ring(roll_in_cube(&d, 10), roll_direction(&d), 0.5, 4);
-    n->in_middle[0] = (geometry_placement){2, transform("-rx 31 -s 2.5 -t 3 -7 4.25")};
-    n->in_middle[1] = (geometry_placement){2, transform("-mx -rz 12 -ry -77 -s .31 -t -2 0 4")};
-    n->in_middle[2] = (geometry_placement){2, transform("-t -11 5 6")};
-    n->in_outer[0] = (geometry_placement){1, transform("-rz 23 -rx 5 -s .125 -t 1 -2 3")};
-    n->in_outer[1] = (geometry_placement){2, transform("-my -s 1.7 -t -3 0 0 -rz 45")};
-    n->in_outer[2] = (geometry_placement){2, transform("-rx 90 -t 0 4 -4")};
-    n->in_outer[3] = (geometry_placement){1, transform("-mz -ry 70 -s .4 -t -3 5 -1")};
+    n->in_middle[0] = placed_at(2, transform("-rx 31 -s 2.5 -t 3 -7 4.25"));
+    n->in_middle[1] = placed_at(2, transform("-mx -rz 12 -ry -77 -s .31 -t -2 0 4"));
+    n->in_middle[2] = placed_at(2, transform("-t -11 5 6"));
+    n->in_outer[0] = placed_at(1, transform("-rz 23 -rx 5 -s .125 -t 1 -2 3"));
+    n->in_outer[1] = placed_at(2, transform("-my -s 1.7 -t -3 0 0 -rz 45"));
+    n->in_outer[2] = placed_at(2, transform("-rx 90 -t 0 4 -4"));
+    n->in_outer[3] = placed_at(1, transform("-mz -ry 70 -s .4 -t -3 5 -1"));
     n->groups[0] = (geometry_group){n->outer, OUTER, n->in_outer, 4};
     n->groups[1] = (geometry_group){n->middle, MIDDLE, n->in_middle, 3};
     n->groups[2] = (geometry_group){n->inner, INNER, NULL, 0};
@@ -174,7 +178,7 @@ static void same_as_unfolded(void **state) {
 static void check_closed(const char *placed, const shape *around, vec3 inside, double reach, uint64_t seed) {
     static shape shapes[4 * 40 * 40];
     size_t count = make_globe(shapes, inside, reach, 40);
-    geometry_placement placement = {1, transform(placed)};
+    geometry_placement placement = placed_at(1, transform(placed));
     geometry_group groups[] = {{around, around ? 1 : 0, &placement, 1}, {shapes, count, NULL, 0}};
     geometry *g = build(groups, 2);
     const rad_transform *t = &placement.transform;
@@ -229,8 +233,8 @@ static void surfaces_of_copies_coincide(void **state) {
     shape box[12], floor;
     floor = quadrangle(vec3_make(-5, -5, 0), vec3_make(5, -5, 0), vec3_make(5, 5, 0), vec3_make(-5, 5, 0));
     size_t count = make_box(box, vec3_make(-1, -1, 0), 2, 1);
-    geometry_placement placements[] = {{1, transform("-rz 30 -s .1 -t .7 .3 0")},
-                                       {1, transform("-rz 60 -s .1 -t .7 .3 .2")}};
+    geometry_placement placements[] = {placed_at(1, transform("-rz 30 -s .1 -t .7 .3 0")),
+                                       placed_at(1, transform("-rz 60 -s .1 -t .7 .3 .2"))};
     geometry_group groups[] = {{&floor, 1, placements, 2}, {box, count, NULL, 0}};
     geometry *g = build(groups, 2);
     geometry_hit hit;
@@ -266,7 +270,7 @@ static void shafts_know_copies(void **state) {
     size_t count = 0;
     for (int k = 0; k < 20; k++)
         for (int i = 0; i < 20; i++) {
-            placements[count] = (geometry_placement){1, rad_transform_identity()};
+            placements[count] = placed_at(1, rad_transform_identity());
             placements[count].transform.m[3][0] = i - 9.5;
             placements[count].transform.m[3][1] = k ? k - 9.5 : 0;
             placements[count++].transform.m[3][2] = i < 10 ? 1 : 7;
@@ -313,7 +317,7 @@ static void shafts_know_copies(void **state) {
 
 static void copies_of_nothing(void **state) {
     (void)state;
-    geometry_placement placements[] = {{1, rad_transform_identity()}, {2, rad_transform_identity()}};
+    geometry_placement placements[] = {placed_at(1, rad_transform_identity()), placed_at(2, rad_transform_identity())};
     shape ball = make_sphere(vec3_make(0, 0, 0), 1);
     geometry_group groups[] = {{NULL, 0, placements, 2}, {NULL, 0, NULL, 0}, {&ball, 1, NULL, 0}};
     geometry *g = build(groups, 3);
@@ -324,16 +328,48 @@ static void copies_of_nothing(void **state) {
     assert_true(hit.distance == 2);
     geometry_destroy(g);
     /* The number of a copy's surface is no index into shapes that are not there, if it is not 0. */
-    placements[0] = (geometry_placement){2, transform("-t 9 0 0")};
+    placements[0] = placed_at(2, transform("-t 9 0 0"));
     g = build(groups, 3);
     assert_true(geometry_intersect(g, &ray, &hit));
     assert_int_equal(hit.surface, 1);
     geometry_destroy(g);
-    placements[0] = (geometry_placement){1, rad_transform_identity()};
+    placements[0] = placed_at(1, rad_transform_identity());
     groups[0].placement_count = 1;
     g = build(groups, 2);
     assert_false(geometry_intersect(g, &ray, &hit));
     geometry_destroy(g);
+}
+
+/* A lamp of the scene, and a copy in a copy of another that coincides with it: the later one that shines is hit, and
+ * one that the outer copy replaces is what that says. Of polygons and of curved ones. */
+static void copies_are_of_other_materials(void **state) {
+    (void)state;
+    const vec3 up = {0, 0, 1}, square[4] = {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}};
+    const geometry_ray ray = {{0.25, 0.5, 5}, {0, 0, -1}, GEOMETRY_FAR, -1},
+                       to_lamp = {ray.origin, ray.direction, 3, -1};
+    for (int curved = 0; curved < 2; curved++) {
+        shape lamp = curved ? make_ring((vec3){0, 0, 2}, up, 0, 1) : make_polygon(4, square);
+        lamp.shines = true;
+        for (int k = 0; k < 4; k++) {
+            const bool replaces = k > 0, shines = k == 1, passes = k == 3;
+            const geometry_placement inner = {2, rad_transform_identity(), true, !shines, !passes},
+                                     plain = {2, rad_transform_identity(), false, false, false},
+                                     outer = {1, rad_transform_identity(), replaces, shines, passes};
+            const geometry_group groups[3] = {
+                {&lamp, 1, &outer, 1}, {NULL, 0, replaces ? &inner : &plain, 1}, {&lamp, 1, NULL, 0}};
+            geometry *g = build(groups, 3);
+            geometry_hit hit;
+            bool panes = false;
+            assert_true(geometry_intersect(g, &ray, &hit));
+            assert_int_equal(hit.surface, k < 2);
+            assert_true(geometry_shines(g, 0) && geometry_shines(g, 1) == (k < 2));
+            assert_true(!geometry_passes(g, 0) && geometry_passes(g, 1) == passes);
+            assert_true(geometry_occluded(g, &to_lamp, 0) == (k < 2));
+            assert_true(geometry_occluded_but_for_panes(g, &ray, -1, &panes));
+            assert_true(geometry_occluded_but_for_panes(g, &to_lamp, 0, &panes) == (k < 2) && !panes);
+            geometry_destroy(g);
+        }
+    }
 }
 
 int main(void) {
@@ -341,7 +377,7 @@ int main(void) {
         cmocka_unit_test(numbers_are_in_order),        cmocka_unit_test(same_as_unfolded),
         cmocka_unit_test(no_leaks_in_a_copy),          cmocka_unit_test(no_leaks_in_a_small_copy_in_a_large_scene),
         cmocka_unit_test(surfaces_of_copies_coincide), cmocka_unit_test(shafts_know_copies),
-        cmocka_unit_test(copies_of_nothing),
+        cmocka_unit_test(copies_of_nothing),           cmocka_unit_test(copies_are_of_other_materials),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -218,8 +218,11 @@ static void assert_refused(const char *text, const char *why) {
 
 static void test_refused(void **state) {
     (void)state;
-    assert_refused("void brightfunc b 2 if(Py-3,missing,1) . 0 0", "there is no variable missing");
+    assert_refused("void brightfunc b 2 if(Py-3,missing,1) . 0 0",
+                   "in the expression 'if(Py-3,missing,1)', column 9: there is no variable missing");
     assert_refused("void brightfunc b 2 if(Py-3,missing(Px),1) . 0 0", "there is no function missing");
+    assert_refused("void colorfunc b 4 Px 1+missing Py . 0 0",
+                   "colorfunc b: in the expression '1+missing', column 3: there is no variable missing");
     assert_refused("void brightfunc b 2 if(Py-3,odd,1) own.cal 0 0", "own.cal:1:117: there is no variable missing");
     assert_refused("void brightfunc b 2 odd own.cal 0 0", "brightfunc b: own.cal:1:117: there is no variable missing");
     assert_refused("void brightfunc b 2 Px+ . 0 0", "Px+");

@@ -76,6 +76,26 @@ def lamps(random):
                    JITTER.get(name, ""), repeat=32)
 
 
+# What Radiance guesses at in silence, and Graze with a warning.
+GUESSED = {
+    "a source's angle above 360": "light L 0 0 3 3e6 2e6 1e6\nL source lamp 0 0 4 .1 .2 2 719.5\n"
+    "void glow M 0 0 4 3 2 1 -1\nM source sky 0 0 4 0 0 1 600",
+    "a spotlight's angle above 360": "spotlight L 0 0 7 3e5 2e5 1e5 660 .1 .2 -1\nL polygon lamp 0 0 12 .1 .1 2 .1 .11 2 .11 .11 2 .11 .1 2",
+    "alternates that are not there": "light L 0 0 3 3e5 2e5 1e5\nL polygon lamp 0 0 12 .1 .1 2 .1 .11 2 .11 .11 2 .11 .1 2\n"
+    "void illum I 1 nowhere 0 3 3e2 3e2 3e2\nI polygon window 0 0 12 1 -1 1 1 -.9 1 1.1 -.9 1 1.1 -1 1\n"
+    "void antimatter A 1 nowhere 0 0\nA sphere ball 0 0 4 -1 1 .8 .5\n"
+    "void mirror R 1 nowhere 0 3 .8 .7 .6\nR polygon glass 0 0 12 2.5 -2 0 2.5 -2 1 2.5 2 1 2.5 2 0",
+}
+
+
+def guesses(random):
+    under = sensors([-2.2, -2.2, 0], [2.2, 2.2, 0], 64, [0, 0, 1], random)
+    looking = np.vstack([aim([.3, -3, 1.5], under[:, :3]), aim([0, 0, 1], [0, 0, 1] + normalized(random.normal(size=(64, 3))))])
+    for name, text in GUESSED.items():
+        yield Case(f"{name}: light", f"{FLOOR}void {text}\n", under, "-I -ab 0 -w-", "-dr 1", repeat=64)
+        yield Case(f"{name}: seen", f"{FLOOR}void {text}\n", looking, "-ab 0 -w-", "-dr 1", repeat=32)
+
+
 # What stands for `xform` and its words; the scene's other lines are in a file of its own.
 PART = """
 void plastic leaf 0 0 5 .2 .6 .1 .05 .2
@@ -195,6 +215,7 @@ def cases():
     yield Case("no farther than that", everything, rays * [1, 1, 1, 3.9, 3.9, 3.9], "-ab 0 -st 1 -ld+", repeat=16)
 
     yield from lamps(random)
+    yield from guesses(np.random.default_rng(360))
     yield from transforms(random)
     yield from generators(random)
     yield from octrees(random)

@@ -194,6 +194,10 @@ static void tells_of_damage_with_its_place(void **state) {
     put_integer(&b, 1, 1);
     put_integer(&b, -5, 4);
     assert_refused(&b, "damaged: a leaf with -5 objects");
+    b = start;
+    put_integer(&b, 1, 1);
+    put_integer(&b, 1000, 4);
+    assert_refused(&b, "octree: the file ends too early (byte ");
     put_integer(&start, 0, 1);
     put_text(&start, "plastic");
     put_text(&start, "nonsense");
@@ -208,7 +212,7 @@ static void tells_of_damage_with_its_place(void **state) {
     put_head(&b, 1, -1, 4, "gray", 0);
     put_reals(&b, 0, NULL);
     put_integer(&b, 255, 1);
-    assert_refused(&b, "unknown type \"nonsense\"");
+    assert_refused(&b, "nonsense gray: unknown type \"nonsense\"");
     b = start;
     put_head(&b, 0, -1, 4, "gray", 0);
     put_reals(&b, 1, (const double[]){1});

@@ -103,7 +103,7 @@ static void knows_every_type(void **state) {
         snprintf(text, sizeof text, "void %s x 0 0 0\nvoid nonsense y 0 0 0\n", name);
         messages m;
         bad_text(text, &m);
-        assert_contains(m.text, "scene.rad:2:6: unknown type \"nonsense\"");
+        assert_contains(m.text, "scene.rad:2:6: nonsense y: unknown type \"nonsense\"");
         assert_null(strstr(m.text, "scene.rad:1:6"));
     }
     assert_true(rad_type_is_surface(RAD_SOURCE) && rad_type_is_surface(RAD_INSTANCE));
@@ -194,7 +194,7 @@ static void reports_errors_with_places(void **state) {
         {"void light a", "light a: the text ends before its number of string arguments"},
         {"void light 'a 0 0 3 1 1 1", "scene.rad:1:12: quote without end"},
         {"void light a 'b 0 0 3 1 1 1", "scene.rad:1:14: light a: quote without end"},
-        {"void \033[31mlight a 0 0 0", "unknown type \"?[31mlight\""},
+        {"void \033[31mlight a 0 0 0", "?[31mlight a: unknown type \"?[31mlight\""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         messages m;
@@ -313,8 +313,11 @@ static void failing_commands_are_errors(void **state) {
     assert_contains(m.text, "was ended by signal 9");
     bad_text("!no-such-command-anywhere 2>/dev/null\n", &m);
     assert_contains(m.text, "failed with status 127");
+    bad_text("!echo a b c 0 0 0\n", &m);
+    assert_contains(m.text, "error: `!echo a b c 0 0 0`:1:3: b c: unknown type \"b\" (from scene.rad:1:1)");
     bad_text("!echo a b\n", &m);
     assert_contains(m.text, "error: `!echo a b`:1:3: unknown type \"b\" (from scene.rad:1:1)");
+    assert_contains(m.text, "`!echo a b`:1:1: the text ends before the primitive's name");
 }
 
 static void recursion_is_bounded(void **state) {

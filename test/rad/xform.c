@@ -252,6 +252,8 @@ static void refuses_bad_commands(void **state) {
     write_file("again", "-t 1 0 0 -f ./again\n-t 2 0 0 -f again\n");
     write_file("first", "-f second\n");
     write_file("second", "-f first\n");
+    write_file("wrong", "-t 1 0 0\n# no command\n-t 1 q 0\n");
+    write_file("lost", "missing.rad\n");
     write_file("open", "-t 1 0 0\n-n \"a\n");
     assert_int_equal(system("printf -- '-t 1 0 0\\n-\\0n' >zero"), 0);
     static const struct {
@@ -281,6 +283,11 @@ static void refuses_bad_commands(void **state) {
         {"!xform -f zero ball.rad", "xform: zero is no argument file"},
         {"!xform -f again ball.rad", "xform: argument file ./again names itself"},
         {"!xform -f first ball.rad", "xform: argument file first names itself"},
+        {"!xform -f first ball.rad", "error: second:1:1: xform: argument file first names itself (from first:1:1, from "
+                                     "scene.rad:1:1)"},
+        {"!xform -f wrong ball.rad", "error: wrong:3:1: xform: command line error at '-t': three numbers are to follow "
+                                     "(from scene.rad:1:1)"},
+        {"!xform -a 2 -t 1 0 0 -f lost", "error: lost:1:1: xform: cannot find file \"missing.rad\": "},
         {"!echo '-f -' | xform -f - ball.rad", "xform: argument file standard input names itself"},
         {"!xform missing.rad", "cannot find file \"missing.rad\""},
         {"!xform itself.rad", "nested more than 64 deep"},

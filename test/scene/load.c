@@ -72,13 +72,18 @@ static void lights_are_checked(void **state) {
     assert_refused("void spotlight l 0 0 7 1 1 1 10 0 0 0 l sphere s 0 0 4 0 0 0 1\n", "spotlight l", "null");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 0 1\n", "source s", "direction");
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 0\n", "source s", "angle");
+    assert_warned("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 400\n", ":1:26: source s",
+                  "an angle of 400 degrees, above 360, is one of 320 degrees, as in Radiance");
+    assert_warned("void spotlight l 0 0 7 1 1 1 1000 0 0 1 l sphere s 0 0 4 0 0 0 1\n", ":1:1: spotlight l",
+                  "one of 280 degrees");
 }
 
 static void illums_are_checked(void **state) {
     (void)state;
     assert_warned("void plastic a 0 0 5 1 1 1 0 0 void illum i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n",
                   ":1:32: illum i", "string argument 2, \"b\", has no meaning");
-    assert_refused("void illum i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i", "no modifier 'a' before");
+    assert_warned("void illum i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: illum i",
+                  "no modifier 'a' before it: as in Radiance, that is void");
     assert_refused("void light l 0 0 3 1 1 1 void illum i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "illum i",
                    "seen as l, which shines");
     assert_refused("void plastic p 0 0 3 1 1 1 void illum i 1 p 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "plastic p",
@@ -98,8 +103,8 @@ static void prisms_are_checked(void **state) {
 static void alternates_of_mirrors_are_checked(void **state) {
     (void)state;
     assert_refused("void mirror i 2 a b 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i", "1 string");
-    assert_refused("void mirror i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i",
-                   "no modifier 'a' before");
+    assert_warned("void mirror i 1 a 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", ":1:1: mirror i",
+                  "no modifier 'a' before it: as in Radiance, that is void");
     assert_refused("void glow l 0 0 4 1 1 1 0 void mirror i 1 l 0 3 1 1 1 i sphere s 0 0 4 0 0 0 1\n", "mirror i",
                    "seen as l, which shines");
 }
@@ -107,7 +112,8 @@ static void alternates_of_mirrors_are_checked(void **state) {
 static void antimatter_is_checked(void **state) {
     (void)state;
     assert_refused("void antimatter i 0 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: antimatter i", "string");
-    assert_refused("void antimatter i 1 a 0 0 i sphere s 0 0 4 0 0 0 1\n", "antimatter i", "no modifier 'a' before");
+    assert_warned("void antimatter i 1 a 0 0 i sphere s 0 0 4 0 0 0 1\n", ":1:1: antimatter i",
+                  "no modifier 'a' before");
     assert_refused(
         "void light l 0 0 3 1 1 1 void antimatter i 2 void l 0 0 i sphere s 0 0 4 0 0 0 1 l sphere t 0 0 4 3 "
         "0 0 1\n",

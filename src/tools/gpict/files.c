@@ -1,6 +1,7 @@
 /* Names, checks and writing of a picture's files. */
 #include "tools/gpict/files.h"
 
+#include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -29,6 +30,7 @@ static bool find_recover(picture_files *f, arena *memory, const gpict_options *o
     if (!*o->recover || (wanted > 0 && wanted != number))
         return true;
     const char *file = wanted > 0 && f->count > 0 ? f->pictures[0] : name_of_frame(memory, o->recover, number);
+    f->begun = file;
     f->recover = file ? checkpoint_of(memory, file) : NULL;
     if (!f->recover)
         return false;
@@ -81,6 +83,20 @@ graze_status files_find(picture_files *f, arena *memory, const gpict_options *o,
     return good ? GRAZE_OK : report_out_of_memory(report);
 }
 
+/* The user named a picture, so the message does not begin with a name that they never wrote. */
+static graze_status check_recover(const picture_files *f, const graze_report *report) {
+    if (!f->recover || access(f->recover, F_OK) == 0 || errno != ENOENT)
+        return GRAZE_OK;
+    const place where = {.file = f->begun};
+    if (access(f->begun, F_OK) != 0)
+        return report_error(report, &where, "nothing to go on with: neither it nor its checkpoint, %s, is there",
+                            f->recover);
+    return report_error(report, &where,
+                        "nothing to go on with: it has no checkpoint beside it, %s, and is none itself, or one whose "
+                        "beginning is damaged; a picture without a checkpoint is finished",
+                        f->recover);
+}
+
 /* A checkpoint replaces nothing but a checkpoint. */
 static graze_status check_checkpoint(const char *file, const graze_report *report) {
     if (access(file, F_OK) == 0 && !checkpoint_is(file))
@@ -91,7 +107,7 @@ static graze_status check_checkpoint(const char *file, const graze_report *repor
 graze_status files_check(const picture_files *f, const graze_report *report) {
     const char *files[OUTPUT_LIMIT + 5];
     int count = 0;
-    graze_status status = GRAZE_OK;
+    graze_status status = check_recover(f, report);
     for (int i = 0; i < f->count; i++)
         files[count++] = f->pictures[i];
     if (f->contours)

@@ -14,6 +14,7 @@ typedef struct picture_files {
     const char *checkpoint;       /* null: there is no place for one */
     const char *preview;          /* the same */
     bool preview_wanted;          /* the user has asked for one beforehand */
+    const char *begun;            /* what -r names; null: nothing */
     const char *recover;          /* a checkpoint to go on with; null: the picture is to be begun */
 } picture_files;
 
