@@ -150,6 +150,17 @@ endef
 $(foreach target,$(notdir $(FUZZ)),$(eval $(call fuzz_rule,$(target))))
 tests: $(FUZZ)
 
+# The tools under a main that lets each of their allocations fail in turn.
+WRAPPED := main malloc calloc realloc aligned_alloc strdup strndup fopen open_memstream arena_allocate arena_copy_text
+define no_memory_rule
+$(BUILD)/test/no_memory/$(1): test/no_memory/every_allocation.c $$(PARTS_$(1)) $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(1)),picture))
+	@mkdir -p $$(@D)
+	$$(call say,$$@)$$(CC) $$(ALL_CFLAGS) -MMD -MP -o $$@ $$< $$(PARTS_$(1)) $(BUILD)/libtools.a $(call archives,$(or $(BASIS_$(1)),picture)) \
+	    $(WRAPPED:%=-Wl,--wrap=%) $(call libs,$(or $(BASIS_$(1)),picture)) $$(LDFLAGS)
+tests: $(BUILD)/test/no_memory/$(1)
+endef
+$(foreach tool,$(notdir $(TOOLS)),$(eval $(call no_memory_rule,$(tool))))
+
 # What the reflectance models cost; glibc has libmvec to compare with on this processor.
 $(BUILD)/test/bench/brdf: test/bench/brdf.c $(call archives,brdf) $(BUILD)/flags
 	@mkdir -p $(@D)

@@ -130,7 +130,10 @@ graze_status cal_program_add_scene_names(cal_program *program, const graze_repor
 static graze_status read_file(cal_program *program, const char *context, const char *name, const cal_finder *finder,
                               const place *where, const graze_report *report) {
     whole_file text;
-    const char *path = finder->find(finder->user, name), *own = path ? NULL : cal_own_file(name);
+    const char *path;
+    if (!finder->find(finder->user, name, &path))
+        return report_out_of_memory(report);
+    const char *own = path ? NULL : cal_own_file(name);
     if (own)
         return add_statements(program, context, own, strlen(own), &(place){.file = name, .parent = where}, report);
     if (!path)
@@ -174,10 +177,12 @@ uint64_t cal_program_fingerprint(const cal_program *program) {
 
 int cal_program_parameter_count(cal_program *program, const char *file, const char *name) {
     const char *context = cal_context_of_file(program->memory, file);
-    const cal_symbol *symbol = context ? cal_symbols_find(&program->symbols, context, name) : NULL;
+    if (!context)
+        return -1;
+    const cal_symbol *symbol = cal_symbols_find(&program->symbols, context, name);
     if (symbol && symbol->definition)
         return symbol->definition->parameter_count;
-    const cal_function *library = symbol ? symbol->library : context ? cal_library_find(name) : NULL;
+    const cal_function *library = symbol ? symbol->library : cal_library_find(name);
     if (!library)
         return 0;
     switch (library->kind) {

@@ -60,10 +60,10 @@ enum {
     CAL_CHANNELS_MOST = 63
 };
 
-/* Where function files are found. Gives the path for a name as scenes write it, or null where there is no such file;
- * the path must last until the file has been read. */
+/* Where function files are found. `find` gives the path for a name as scenes write it, or null where there is none;
+ * the path must last until the file has been read. It is false when out of memory. */
 typedef struct cal_finder {
-    const char *(*find)(void *user, const char *name);
+    bool (*find)(void *user, const char *name, const char **path);
     void *user;
 } cal_finder;
 
@@ -93,7 +93,7 @@ graze_status cal_program_add_file(cal_program *, const char *name, const cal_fin
 uint64_t cal_program_fingerprint(const cal_program *);
 
 /* How many parameters the function of that name has, in the context of `file`; 0 for a variable or an unknown name;
- * of those of the library that take any number, the least. */
+ * of those of the library that take any number, the least. -1 when out of memory. */
 int cal_program_parameter_count(cal_program *, const char *file, const char *name);
 
 #endif

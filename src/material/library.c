@@ -68,11 +68,12 @@ cal_program *material_library_program(material_library *library) {
     return library->program;
 }
 
-static const char *find_file(void *user, const char *name) {
+static bool find_file(void *user, const char *name, const char **path) {
     material_library *library = user;
     bool found;
-    const char *path = rad_path_find(library->memory, NULL, name, &found);
-    return found ? path : NULL;
+    const char *tried = rad_path_find(library->memory, NULL, name, &found);
+    *path = found ? tried : NULL;
+    return tried != NULL;
 }
 
 static graze_status need_program(material_library *library) {

@@ -150,9 +150,12 @@ static graze_status compile_functions(material_modifiers *m, material_modifier *
     const char *file = p->strings[l->file];
     for (int i = 0; i < l->value_count; i++) {
         const char *name = p->strings[l->values + i];
-        int arguments = l->arguments, first = MATERIAL_OWN_CHANNEL;
-        bool own = l->kind == MATERIAL_PATTERN && arguments == 3 &&
-                   cal_program_parameter_count(material_library_program(m->library), file, name) < 3;
+        int arguments = l->arguments, first = MATERIAL_OWN_CHANNEL, parameters = 3;
+        if (l->kind == MATERIAL_PATTERN && arguments == 3)
+            parameters = cal_program_parameter_count(material_library_program(m->library), file, name);
+        if (parameters < 0)
+            return report_out_of_memory(&m->report);
+        bool own = parameters < 3;
         functions[i] = (cal_expression){name, own ? 1 : arguments, first + (own ? i : 0)};
     }
     return material_function_compile(&made->values, m->library, &made->owner, (uint32_t)l->file, functions,

@@ -293,13 +293,13 @@ static graze_status run_text(rad_job *j, const char *const *words, int count, in
     return run_lines(j, words, count, at, name, here);
 }
 
-static graze_status run_file(rad_job *j, const char *const *words, int count, int at, nesting *here) {
+static graze_status run_file(rad_job *j, const char *const *words, int count, int at, nesting here) {
     const graze_report *report = j->reader->report;
     static const whole_file nothing = {"", 0};
-    here->behind = count - at - 2;
+    here.behind = count - at - 2;
     if (at + 1 < count && !strcmp(words[at + 1], "-")) {
-        here->text = j->options ? j->options : &nothing;
-        return run_text(j, words, count, at, "standard input", here);
+        here.text = j->options ? j->options : &nothing;
+        return run_text(j, words, count, at, "standard input", &here);
     }
     if (at + 1 >= count || words[at + 1][0] == '-')
         return report_error(report, j->where, "xform: missing file for -f option");
@@ -310,8 +310,8 @@ static graze_status run_file(rad_job *j, const char *const *words, int count, in
     graze_status status = whole_file_read_path(&text, path, path, j->where, report);
     if (status)
         return status;
-    here->text = &text;
-    status = run_text(j, words, count, at, path, here);
+    here.text = &text;
+    status = run_text(j, words, count, at, path, &here);
     free(text.bytes);
     return status;
 }
@@ -325,7 +325,7 @@ static graze_status run(rad_job *j, const char *const *words, int count, const n
     if (here.depth > DEPTH_MOST)
         return report_error(j->reader->report, j->where,
                             "xform: arrays and argument files are nested more than %d deep", DEPTH_MOST);
-    return file ? run_file(j, words, count, file, &here) : run_array(j, words, count, array, &here);
+    return file ? run_file(j, words, count, file, here) : run_array(j, words, count, array, &here);
 }
 
 static graze_status run_stage(rad_job j, const rad_stage *stage) {

@@ -32,9 +32,10 @@ static void complain(void *user, graze_severity severity, const char *text) {
 
 static const graze_report to_stderr = {complain, NULL};
 
-static const char *find_here(void *user, const char *name) {
+static bool find_here(void *user, const char *name, const char **path) {
     (void)user;
-    return access(name, R_OK) == 0 ? name : NULL;
+    *path = access(name, R_OK) == 0 ? name : NULL;
+    return true;
 }
 
 /* A piece of the records, by one thread. */

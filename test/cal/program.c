@@ -42,11 +42,12 @@ typedef struct files {
     int asked;
 } files;
 
-static const char *find_file(void *user, const char *name) {
+static bool find_file(void *user, const char *name, const char **path) {
     files *f = user;
     f->asked++;
     snprintf(f->path, sizeof f->path, "%s/%s", f->directory, name);
-    return access(f->path, R_OK) == 0 ? f->path : NULL;
+    *path = access(f->path, R_OK) == 0 ? f->path : NULL;
+    return true;
 }
 
 static void write_file(const char *directory, const char *name, const char *text) {

@@ -44,7 +44,7 @@ static graze_status add_file(modifier_list *list, const char *name, const graze_
     if (!list->memory)
         list->memory = arena_create();
     const char *path = list->memory ? rad_path_find(list->memory, NULL, name, &found) : NULL;
-    if (!path && !(list->memory && !found))
+    if (!path)
         return report_out_of_memory(report);
     whole_file file = {0};
     size_t before = list->count;
