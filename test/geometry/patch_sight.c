@@ -134,12 +134,29 @@ static void lamps_in_one_plane(void **state) {
     }
 }
 
+/* A panel shines down: not on what is above it, and on a part of what reaches below it. */
+static void a_lamp_from_behind(void **state) {
+    (void)state;
+    world w = {.scale = 1};
+    add_lamp(&w, panel(&w, 1, 1, 2, 1));
+    int wall = add(&w, face(&w, (double[]){0, 0, 0}, (double[]){4, 3, 4}, 0, true));
+    build(&w);
+    geometry_patch above = {.corners = {{0, 1, 2.1}, {0, 2, 2.1}, {0, 2, 3}, {0, 1, 3}}, .surface = wall};
+    geometry_patch across = {.corners = {{0, 1, 1.9}, {0, 2, 1.9}, {0, 2, 3}, {0, 1, 3}}, .surface = wall};
+    geometry_patch below = {.corners = {{0, 1, 1}, {0, 2, 1}, {0, 2, 1.9}, {0, 1, 1.9}}, .surface = wall};
+    assert_int_equal(geometry_sight_of_patch(w.geometry, &above), GEOMETRY_BLOCKED);
+    assert_int_equal(geometry_sight_of_patch(w.geometry, &across), GEOMETRY_MIXED);
+    assert_int_equal(geometry_sight_of_patch(w.geometry, &below), GEOMETRY_CLEAR);
+    geometry_destroy(w.geometry);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(empty_rooms),
         cmocka_unit_test(furnished_rooms),
         cmocka_unit_test(a_screen_before_a_lamp),
         cmocka_unit_test(lamps_in_one_plane),
+        cmocka_unit_test(a_lamp_from_behind),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
