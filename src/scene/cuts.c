@@ -211,18 +211,18 @@ static uint64_t cuts_of_surface(const graze_scene *scene, int64_t surface) {
     return cuts_of(scene, &s);
 }
 
-/* Counts from the ray's origin back, up to what is known already, and keeps that for points further on. */
+/* Counts from the ray's origin back, up to what is known already, and keeps that for points further on. What is not
+ * counted is kept, too: of many antimatters in one another each would come to all before it again. */
 static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const crossings *counted,
                                       scene_cuts_crossing *known) {
     scene_cuts_crossing found = {.antimatter = counted->antimatter, .surface = -1};
     geometry_hit hit;
     while (next_hit(g, &ray, &hit)) {
-        const uint64_t cut_by = cuts_of_surface(counted->scene, hit.surface);
-        if (counted->scene && !(cut_by & bit(counted->antimatter)))
-            continue;
         const bool entered = vec3_dot(hit.normal, ray.direction) > 0;
         const bool is_known = is_same_crossing(known, counted->antimatter, &hit, entered);
-        const int most = found.balance + (is_known ? known->most : entered);
+        const uint64_t cut_by = is_known ? 0 : cuts_of_surface(counted->scene, hit.surface);
+        const bool counts = !counted->scene || (cut_by & bit(counted->antimatter));
+        const int most = found.balance + (is_known ? known->most : counts && entered);
         if (found.surface < 0) {
             found.surface = hit.surface;
             found.point = hit.point;
@@ -232,7 +232,10 @@ static scene_cuts_crossing count_back(const geometry *g, geometry_ray ray, const
             found.most = most;
             found.others = is_known ? known->others : cut_by & ~bit(counted->antimatter);
         }
-        found.balance += is_known ? known->balance : entered ? 1 : -1;
+        if (is_known)
+            found.balance += known->balance;
+        else if (counts)
+            found.balance += entered ? 1 : -1;
         if (is_known)
             break;
     }

@@ -121,12 +121,10 @@ static void add_source(scene_builder *b, int primitive) {
     int material = scene_material_of_surface(b, p);
     if (material < 0)
         return;
-    if (!scene_material_emits(&b->scene->materials[material]) && scene_material_shining(b->scene, material) >= 0) {
-        scene_fail(b, rad_primitive_error(b->report, p, "a source that shines by a mixture is not supported"));
-        return;
-    }
     if (!scene_material_emits(&b->scene->materials[material])) {
-        rad_primitive_warning(b->report, p, "a source whose material does not shine does nothing");
+        const bool mixed = scene_material_shining(b->scene, material) >= 0;
+        rad_primitive_warning(b->report, p, "a source whose material %s does nothing%s",
+                              mixed ? "is a mixture" : "does not shine", mixed ? ", as in Radiance" : "");
         return;
     }
     const double *a = p->reals;

@@ -119,11 +119,10 @@ static rgb medium_at(const path *p, const path_hit *hit, const scene_material *m
 /* What the way to a hit through a clear body leaves of the light; and of which body. */
 static void attenuate(path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
-    if (hit->surface < 0)
-        return;
-    const scene_material *material = scene_material_at(scene, hit->surface);
+    /* What is open is as deep as the world: nothing comes through it from a source. */
+    const scene_material *material = hit->surface >= 0 ? scene_material_at(scene, hit->surface) : NULL;
     /* A surface that is met from inside knows what is there, one between two bodies also what is before it. */
-    if (scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
+    if (material && scene_material_refracts(material) && (hit->behind || rgb_min(material->reflector.outside) < 1))
         p->medium = medium_at(p, hit, material);
     if (rgb_min(p->medium) == 1)
         return;

@@ -160,6 +160,18 @@ void glow lit 0 0 4 2 2 2 0
 grey polygon sheet 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1
 lit polygon ceiling 0 0 12 -1 -1 3 -1 1 3 1 1 3 1 -1 3
 END_OF_SCENE
+cat >mixed.rad <<END
+void texfunc lean 4 .3 .2 0 . 0 0
+lean plastic leaning 0 0 5 .5 .5 .5 0 0
+void plastic plain 0 0 5 .5 .5 .5 0 0
+void mixfunc half 4 leaning plain .5 . 0 0
+half ring plate 0 0 8 0 0 0 0 0 1 0 1
+void mixfunc veil 4 lean plain .5 . 0 0
+veil ring curtain 0 0 8 5 0 0 0 0 1 0 1
+END
+check "-on of a mixture is the same from both sides, without what shades nothing" test \
+    "$(printf '%s\n' "0 0 1 0 0 -1" "0 0 -1 0 0 1" "5 0 1 0 0 -1" "5 0 -1 0 0 1" | "$gtrace" -h -on mixed.rad | awk '{ printf "%.3f %.3f %.3f ", $1, $2, $3 }')" = \
+    "0.148 0.098 0.984 0.148 0.098 0.984 0.000 0.000 1.000 0.000 0.000 1.000 "
 check "-bv-" test "$(echo "0 0 .5 0 0 1" | "$gtrace" -h -bv- -ovlXLsmpnN hidden.rad)" = \
     "$(printf '%e\t' 2 2 2 2.5 2.5 .5; printf 'sheet\tgrey\t'; printf '%e\t' 0 0 1 0 0 1 0 0 1)"
 check "... without light" test "$(echo "0 0 .5 0 0 1" | "$gtrace" -h -bv- -oLs hidden.rad)" = "$(printf '%e\tsheet\t' .5)"

@@ -116,6 +116,11 @@ def cases():
                    own_options="-w-")
     yield Case("floor under mixtures that shine, irradiance", "lamp signs", below[::4], "-I -ab 1", "-ad 1024", repeat=64,
                samples=16384, own_options="-w-")
+    # As deep as the world: of the sky below nothing is left but where nothing is absorbed.
+    water = ("void colorfunc c 4 .6+.4*Dx .6+.4*Dy .6+.4*Dz . 0 0\nc glow g 0 0 4 3 2 1 0\ng source sky 0 0 4 0 0 1 360\n"
+             "void dielectric d 0 0 5 .5 .9999 1 1.33 0\nd polygon pool 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0\nd polygon lid 0 0 12 -2 -2 3 -2 2 3 2 2 3 2 -2 3\n")
+    yield Case("open bodies under a sky", water, np.vstack([aim([.3, -1.5, height], grid([-2, -2, 0], [2, 2, 3], 64, np.random.default_rng(3))) for height in (1, -1)]),
+               "-ab 0", repeat=2, samples=16384)
     yield Case("rippled panes", "ripples", aim([.4, -4, 1.2], grid([-2, 0, 0], [3, 0, 2], 144, clear)), "-ab 0", "-ss 64", repeat=256,
                samples=8192)
     sheets = grid([-.95, 0, .1], [1.95, 0, 1.9], 144, clear)

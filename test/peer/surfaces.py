@@ -88,6 +88,12 @@ GUESSED = {
 }
 
 
+# A source with a mixture is not there, and neither what it would shine by.
+GUESSED["a source of a mixture"] = (
+    "glow M 0 0 4 3 2 1 -1\nM source sky 0 0 4 0 0 1 360\nvoid glow N 0 0 4 9 9 9 0\nvoid mixfunc X 4 N void .5 . 0 0\nX source sun 0 0 4 .2 0 1 60\n"
+    "void light L 0 0 3 3e5 2e5 1e5\nL polygon lamp 0 0 12 .1 .1 2 .1 .11 2 .11 .11 2 .11 .1 2")
+
+
 def guesses(random):
     under = sensors([-2.2, -2.2, 0], [2.2, 2.2, 0], 64, [0, 0, 1], random)
     looking = np.vstack([aim([.3, -3, 1.5], under[:, :3]), aim([0, 0, 1], [0, 0, 1] + normalized(random.normal(size=(64, 3))))])

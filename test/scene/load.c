@@ -319,8 +319,8 @@ static void mixtures_are_checked(void **state) {
     assert_refused("void glow g 0 0 4 1 1 1 0 void light l 0 0 3 1 1 1 void mixfunc m 4 g l .5 . 0 0 "
                    "m sphere s 0 0 4 0 0 0 1",
                    "mixfunc m", "a mixture of two materials that shine is not supported");
-    assert_refused("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m source s 0 0 4 0 0 1 9", "source s",
-                   "a source that shines by a mixture is not supported");
+    assert_warned("void glow g 0 0 4 1 1 1 0 void mixfunc m 4 g void .5 . 0 0 m source s 0 0 4 0 0 1 9",
+                  ":1:60: source s", "a source whose material is a mixture does nothing, as in Radiance");
 }
 
 /* One light for all surfaces, which is none that is sampled; lamps are told of, a glow that is seen only anyway is not.

@@ -231,12 +231,31 @@ static void a_lamp_in_a_dark_ball(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* Water without a bottom: from an infinite depth nothing comes but through what absorbs nothing. */
+static void a_sky_below_open_water(void **state) {
+    (void)state;
+    static const char *const colors[] = {"1 .9 1", "1 1 1"};
+    const graze_ray ray = {.origin = {0, 0, 2}, .direction = {0, 0, -1}};
+    graze_trace_settings s = graze_trace_defaults();
+    s.samples = 16384;
+    for (int clear = 0; clear < 2; clear++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "void dielectric d 0 0 5 %s 1.5 0 d ring surface 0 0 8 0 0 0 0 0 1 0 9\n"
+                 "void glow g 0 0 4 4 4 4 0 g source sky 0 0 4 0 0 1 360\n",
+                 colors[clear]);
+        graze_scene *scene = load(text);
+        assert_radiance(scene, &s, &ray, 0, 4 * (0.04 + (clear ? 0.96 / 2.25 : 0)), 0.02);
+        graze_scene_destroy(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clear_things_in_a_white_world), cmocka_unit_test(a_floor_lit_through_panes),
         cmocka_unit_test(a_lamp_in_a_dark_ball),         cmocka_unit_test(a_lamp_and_its_image),
         cmocka_unit_test(lamp_in_a_grey_ball),           cmocka_unit_test(white_things_in_a_white_world),
-        cmocka_unit_test(glossy_ball_in_a_white_world),
+        cmocka_unit_test(glossy_ball_in_a_white_world),  cmocka_unit_test(a_sky_below_open_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
