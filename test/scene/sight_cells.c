@@ -122,11 +122,19 @@ static void beyond_the_edge(void **state) {
     graze_scene *scene = scene_from_text(ROOM);
     assert_non_null(scene);
     int table = surface_named(scene, "table");
-    const vec3 corner = {.6, 1.2, .7}, beside = {.6 - 1e-12, 1.2 - 1e-12, .7}, far = {-1e30, 1e30, .7};
-    for (int light = 0; light < (int)scene->light_count; light++) {
-        assert_int_equal(sees(scene, table, corner, light), sees(scene, table, beside, light));
-        (void)sees(scene, table, far, light);
+    const vec3 corner = {.6, 1.2, .7}, far = {-1e30, 1e30, .7};
+    const shape *s = &scene->shapes[table];
+    for (uint32_t k = 0; k < 4 * 16; k++) {
+        /* Along the edges, a little inside and outside. */
+        vec3 v = s->polygon.vertices[k / 16], edge = vec3_subtract(s->polygon.vertices[(k / 16 + 1) % 4], v);
+        v = vec3_add_scaled(v, (k % 16 + .5) / 16, edge);
+        vec3 out = vec3_subtract(v, s->polygon.center);
+        vec3 inside = vec3_add_scaled(v, -1e-6, out), outside = vec3_add_scaled(v, 1e-6, out);
+        for (int light = 0; light < (int)scene->light_count; light++)
+            assert_int_equal(sees(scene, table, inside, light), sees(scene, table, outside, light));
     }
+    for (int light = 0; light < (int)scene->light_count; light++)
+        (void)sees(scene, table, far, light);
     assert_int_equal(sees(scene, -1, corner, 0), GEOMETRY_MIXED);
     assert_int_equal(sees(scene, (int64_t)scene->surface_count, corner, 0), GEOMETRY_MIXED);
     assert_int_equal(sees(scene, surface_named(scene, "ball"), corner, 0), GEOMETRY_MIXED);
