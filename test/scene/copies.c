@@ -205,6 +205,32 @@ static void glows_in_copies_are_lights_where_they_stand(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* 64 to the third copies of a glow, or of a thing that a glow stands for. */
+static void too_many_glows_in_copies_are_none(void **state) {
+    (void)state;
+    enum { WIDTH = 64, LEVELS = 3 };
+    static char text[WIDTH * 64];
+    write_octree("level0.oct", "level0.rad", "void glow g 0 0 4 1 1 1 0\ng sphere a 0 0 4 0 0 0 .1\n", 2);
+    for (int level = 1; level <= LEVELS; level++) {
+        char octree[32], file[32];
+        size_t end = 0;
+        snprintf(octree, sizeof octree, "level%d.oct", level);
+        snprintf(file, sizeof file, "level%d.rad", level);
+        for (int i = 0; i < WIDTH; i++)
+            end +=
+                (size_t)snprintf(text + end, sizeof text - end, "void instance i 3 level%d.oct -s 1 0 0\n", level - 1);
+        write_octree(octree, file, text, WIDTH);
+    }
+    for (int replaced = 0; replaced < 2; replaced++) {
+        snprintf(text, sizeof text, BASE "void glow h 0 0 4 1 1 1 0\n%s instance x 1 level%d.oct 0 0\n",
+                 replaced ? "h" : "void", LEVELS);
+        graze_scene *scene = load(text);
+        assert_int_equal(scene->light_count, 0);
+        assert_true(scene->meets_glows);
+        graze_scene_destroy(scene);
+    }
+}
+
 static void meshes_need_materials(void **state) {
     (void)state;
     write_mesh("bare.rtm", "plastic", -1, 0);
@@ -261,6 +287,7 @@ int main(void) {
         cmocka_unit_test(a_surface_across_its_orientation_is_warned_about_in_copies),
         cmocka_unit_test(lights_in_copies_are_only_seen),
         cmocka_unit_test(glows_in_copies_are_lights_where_they_stand),
+        cmocka_unit_test(too_many_glows_in_copies_are_none),
         cmocka_unit_test(meshes_need_materials),
         cmocka_unit_test(normals_of_meshes_turn_with_them),
         cmocka_unit_test(fingerprints_know_all_files),
