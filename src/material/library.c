@@ -185,7 +185,7 @@ static void write_asked(void *user, graze_severity severity, const char *text) {
 
 static graze_status read_image(image **picture, const char *path, const material_library *library,
                                const rad_primitive *p) {
-    rad_primitive_name name;
+    rad_primitive_name name = {""};
     asked_report asked = {&library->report, rad_primitive_place(p, &name)};
     return image_read(picture, path, &(graze_report){write_asked, &asked});
 }

@@ -74,10 +74,10 @@ static bool source_light(const receiver *r, const scene_light *light) {
 
 bool unshadowed_light_at(const graze_scene *scene, const graze_surface *s, vec3 point, int index, bool glossy,
                          unshadowed_light *result) {
+    *result = (unshadowed_light){0, 0};
     const scene_light *light = &scene->lights[index];
     bool lobe = glossy && s->specular_lobe == GRAZE_LOBE_GLOSSY;
     receiver r = {{s->x, s->y, s->n}, point, s->local_view, lobe ? &s->lobe : NULL, result};
-    *result = (unshadowed_light){0, 0};
     if (light->spot || light->modifiers || s->fresnel || (lobe && s->lobe.model != GRAZE_BRDF_GMD))
         return false;
     if (!light->shape)

@@ -205,6 +205,52 @@ static void glows_in_copies_are_lights_where_they_stand(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* What stands for a copy and is only seen keeps its light where others are put before that. */
+static void only_seen_beside_glows_in_copies(void **state) {
+    (void)state;
+    write_octree("thing.oct", "thing.rad", "void plastic p 0 0 5 .5 .5 .5 0 0\np sphere a 0 0 4 0 0 0 1\n", 2);
+    write_octree("glow.oct", "glow.rad", "void glow g 0 0 4 1 1 1 0\ng sphere b 0 0 4 0 0 0 1\n", 2);
+    graze_scene *scene = load("void glow seen 0 0 4 5 5 5 -1\nseen instance x 1 thing.oct 0 0\n"
+                              "void glow too 0 0 4 7 7 7 -1\ntoo instance w 5 thing.oct -t -3 0 0 0 0\n"
+                              "void instance y 5 glow.oct -t 3 0 0 0 0\nvoid instance z 5 glow.oct -t 6 0 0 0 0\n");
+    assert_int_equal(scene->light_count, 2);
+    for (int i = 0; i < 2; i++) {
+        int light = scene_surface_at(scene, hit(scene, vec3_make(-3 * i, 0, -5), vec3_make(0, 0, 1))).light;
+        assert_in_range(light, 2, scene->light_count + scene->seen_light_count - 1);
+        assert_true(scene->lights[light].only_seen && scene->lights[light].radiance.r == 5 + 2 * i);
+        int as = scene->lights[i].seen_as;
+        assert_in_range(as, 2, scene->light_count + scene->seen_light_count - 1);
+        assert_true(scene->lights[as].radiance.r == 1);
+    }
+    graze_scene_destroy(scene);
+}
+
+/* 64 to the third copies of a glow, or of a thing that a glow stands for. */
+static void too_many_glows_in_copies_are_none(void **state) {
+    (void)state;
+    enum { WIDTH = 64, LEVELS = 3 };
+    static char text[WIDTH * 64];
+    write_octree("level0.oct", "level0.rad", "void glow g 0 0 4 1 1 1 0\ng sphere a 0 0 4 0 0 0 .1\n", 2);
+    for (int level = 1; level <= LEVELS; level++) {
+        char octree[32], file[32];
+        size_t end = 0;
+        snprintf(octree, sizeof octree, "level%d.oct", level);
+        snprintf(file, sizeof file, "level%d.rad", level);
+        for (int i = 0; i < WIDTH; i++)
+            end +=
+                (size_t)snprintf(text + end, sizeof text - end, "void instance i 3 level%d.oct -s 1 0 0\n", level - 1);
+        write_octree(octree, file, text, WIDTH);
+    }
+    for (int replaced = 0; replaced < 2; replaced++) {
+        snprintf(text, sizeof text, BASE "void glow h 0 0 4 1 1 1 0\n%s instance x 1 level%d.oct 0 0\n",
+                 replaced ? "h" : "void", LEVELS);
+        graze_scene *scene = load(text);
+        assert_int_equal(scene->light_count, 0);
+        assert_true(scene->meets_glows);
+        graze_scene_destroy(scene);
+    }
+}
+
 static void meshes_need_materials(void **state) {
     (void)state;
     write_mesh("bare.rtm", "plastic", -1, 0);
@@ -261,6 +307,8 @@ int main(void) {
         cmocka_unit_test(a_surface_across_its_orientation_is_warned_about_in_copies),
         cmocka_unit_test(lights_in_copies_are_only_seen),
         cmocka_unit_test(glows_in_copies_are_lights_where_they_stand),
+        cmocka_unit_test(only_seen_beside_glows_in_copies),
+        cmocka_unit_test(too_many_glows_in_copies_are_none),
         cmocka_unit_test(meshes_need_materials),
         cmocka_unit_test(normals_of_meshes_turn_with_them),
         cmocka_unit_test(fingerprints_know_all_files),

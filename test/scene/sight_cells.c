@@ -15,7 +15,8 @@
 #include "support/dice.h"
 #include "support/scene_text.h"
 
-/* A room with an L-shaped floor, turned about the upright, with a table and a partition; a lamp, a window and a sun. */
+/* A room with an L-shaped floor, turned about the upright, with a table, a three-cornered shelf and a partition; a
+ * lamp, a window and a sun. */
 #define ROOM                                                                                                           \
     "void plastic wall 0 0 5 .5 .5 .5 0 0\n"                                                                           \
     "void light lamp 0 0 3 10 10 10\n"                                                                                 \
@@ -23,6 +24,7 @@
     "wall polygon floor 0 0 18 0 0 0 3.2 2.4 0 1.4 4.8 0 -.2 3.6 0 .4 2.8 0 -1.2 1.6 0\n"                              \
     "wall polygon table 0 0 12 .6 1.2 .7 1.4 1.8 .7 .8 2.6 .7 0 2 .7\n"                                                \
     "wall polygon partition 0 0 12 .4 2.8 0 1.2 3.4 0 1.2 3.4 1.5 .4 2.8 1.5\n"                                        \
+    "wall polygon shelf 0 0 9 2 1.7 .4 .2 2.9 .4 -.4 1.4 .4\n"                                                         \
     "wall sphere ball 0 0 4 1.6 2 .3 .3\n"                                                                             \
     "lamp polygon panel 0 0 12 .5 1 2.5 .2 1.4 2.5 .6 1.7 2.5 .9 1.3 2.5\n"                                            \
     "window polygon pane 0 0 12 3.2 2.4 1 3.2 2.4 2 1.4 4.8 2 1.4 4.8 1\n"                                             \
@@ -79,13 +81,16 @@ static void as_shadow_rays_say(void **state) {
     (void)state;
     graze_scene *scene = scene_from_text(ROOM);
     assert_non_null(scene);
-    int floor[3] = {0}, table[3] = {0};
+    int floor[3] = {0}, table[3] = {0}, shelf[3] = {0};
     check_surface(scene, "floor", floor);
     check_surface(scene, "table", table);
-    /* Of 12,000 answers each, most are useful. */
+    check_surface(scene, "shelf", shelf);
+    /* Of 12,000 answers each, most are useful; on the shelf, which is all in shadows, many. */
     assert_true(floor[GEOMETRY_CLEAR] > 4000);
     assert_true(floor[GEOMETRY_BLOCKED] > 500);
     assert_true(table[GEOMETRY_CLEAR] > 7000);
+    assert_true(shelf[GEOMETRY_CLEAR] > 1000);
+    assert_true(shelf[GEOMETRY_BLOCKED] > 100);
     graze_scene_destroy(scene);
 }
 
@@ -117,11 +122,19 @@ static void beyond_the_edge(void **state) {
     graze_scene *scene = scene_from_text(ROOM);
     assert_non_null(scene);
     int table = surface_named(scene, "table");
-    const vec3 corner = {.6, 1.2, .7}, beside = {.6 - 1e-12, 1.2 - 1e-12, .7}, far = {-1e30, 1e30, .7};
-    for (int light = 0; light < (int)scene->light_count; light++) {
-        assert_int_equal(sees(scene, table, corner, light), sees(scene, table, beside, light));
-        (void)sees(scene, table, far, light);
+    const vec3 corner = {.6, 1.2, .7}, far = {-1e30, 1e30, .7};
+    const shape *s = &scene->shapes[table];
+    for (uint32_t k = 0; k < 4 * 16; k++) {
+        /* Along the edges, a little inside and outside. */
+        vec3 v = s->polygon.vertices[k / 16], edge = vec3_subtract(s->polygon.vertices[(k / 16 + 1) % 4], v);
+        v = vec3_add_scaled(v, (k % 16 + .5) / 16, edge);
+        vec3 out = vec3_subtract(v, s->polygon.center);
+        vec3 inside = vec3_add_scaled(v, -1e-6, out), outside = vec3_add_scaled(v, 1e-6, out);
+        for (int light = 0; light < (int)scene->light_count; light++)
+            assert_int_equal(sees(scene, table, inside, light), sees(scene, table, outside, light));
     }
+    for (int light = 0; light < (int)scene->light_count; light++)
+        (void)sees(scene, table, far, light);
     assert_int_equal(sees(scene, -1, corner, 0), GEOMETRY_MIXED);
     assert_int_equal(sees(scene, (int64_t)scene->surface_count, corner, 0), GEOMETRY_MIXED);
     assert_int_equal(sees(scene, surface_named(scene, "ball"), corner, 0), GEOMETRY_MIXED);

@@ -48,7 +48,8 @@ typedef struct told {
 
 static void remember(void *user, const graze_tree_ray *ray) {
     told *t = user;
-    t->rays = realloc(t->rays, (t->count + 1) * sizeof *t->rays);
+    if ((t->count & (t->count - 1)) == 0) /* a power of two: room for twice as many */
+        t->rays = realloc(t->rays, (t->count ? 2 * t->count : 1) * sizeof *t->rays);
     assert_non_null(t->rays);
     t->rays[t->count++] = *ray;
 }
