@@ -175,3 +175,10 @@ bool shape_front_crossing(const shape *s, vec3 origin, vec3 direction, double *d
     }
     return false;
 }
+
+bool shape_flat_contains(const shape *s, vec3 point) {
+    if (s->kind == SHAPE_POLYGON)
+        return polygon_contains(s, point);
+    double radius = vec3_length(vec3_subtract(point, s->ring.center));
+    return radius >= s->ring.r0 && radius <= s->ring.r1;
+}

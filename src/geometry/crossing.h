@@ -18,4 +18,7 @@ shape_crossings shape_cross(const shape *, vec3 origin, vec3 direction, bool lea
  * sides of cones, it says false. */
 bool shape_front_crossing(const shape *, vec3 origin, vec3 direction, double *distance);
 
+/* Whether a flat shape is at a point in its plane. */
+bool shape_flat_contains(const shape *, vec3 point);
+
 #endif

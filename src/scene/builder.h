@@ -36,6 +36,11 @@ static inline bool scene_material_shows_lights(const scene_material *m) {
     return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_MIRROR && !material_modifiers_lean(m->modifiers);
 }
 
+/* The same of panes, which show them faintly. */
+static inline bool scene_material_shows_lights_faintly(const scene_material *m) {
+    return m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_GLASS && !material_modifiers_lean(m->modifiers);
+}
+
 /* The material of a modifier, or a negative number where it has none that can be used (reported). */
 int scene_material_of_modifier(scene_builder *, int modifier);
 

@@ -104,17 +104,17 @@ static uint64_t cuts_of(const graze_scene *scene, const scene_surface *s) {
     return modifier == RAD_VOID ? 0 : scene->cuts->cut_by[modifier];
 }
 
-/* Lights are not sampled in what is left of mirrors. */
+/* Lights are not sampled in what is left of mirrors and panes. */
 static void leave_mirrors_out(graze_scene *scene) {
     size_t kept = 0;
-    for (size_t i = 0; i < scene->mirror_count; i++) {
-        int mirror = scene->mirrors[i];
+    for (size_t i = 0; i < scene->mirroring_count; i++) {
+        int mirror = scene->mirroring[i];
         if (cuts_of(scene, &scene->surfaces[mirror]))
             scene->surfaces[mirror].mirrors = false;
         else
-            scene->mirrors[kept++] = mirror;
+            scene->mirroring[kept++] = mirror;
     }
-    scene->mirror_count = kept;
+    scene->mirroring_count = kept;
 }
 
 /* Builds the bounds of one antimatter; gives how many of them are the scene's own. */

@@ -11,6 +11,7 @@
 #include "scene/cuts.h"
 #include "scene/emitter.h"
 #include "scene/light_pattern.h"
+#include "scene/mirrors.h"
 #include "scene/mist.h"
 #include "scene/model_choice.h"
 #include "scene/shapes.h"
@@ -53,26 +54,6 @@ static void add_light(scene_builder *b, scene_light light) {
         b->scene->lights[b->scene->light_count++] = light;
 }
 
-/* Flat mirrors, in which lights are sampled. */
-static void note_mirror(scene_builder *b, int index) {
-    graze_scene *scene = b->scene;
-    const scene_material *m = &scene->materials[scene->surfaces[index].material];
-    if (!scene_material_shows_lights(m))
-        return;
-    if (!shape_is_flat(&scene->shapes[index])) {
-        scene->has_mirrors = true;
-        return;
-    }
-    int *grown = realloc(scene->mirrors, (scene->mirror_count + 1) * sizeof *grown);
-    if (!grown) {
-        scene_fail(b, report_out_of_memory(b->report));
-        return;
-    }
-    scene->mirrors = grown;
-    scene->mirrors[scene->mirror_count++] = index;
-    scene->surfaces[index].mirrors = m->alternate < 0 || m->keeps_front;
-}
-
 /* Surfaces of mist are not met: they tell where it is. */
 static void add_bound(scene_builder *b, mist_material *mist, const shape *bound) {
     shape *grown = realloc(mist->own, (mist->own_count + 1) * sizeof *grown);
@@ -102,7 +83,7 @@ static void add_shape(scene_builder *b, const scene_shapes *made, size_t number)
         .no_ambient = scene_leaves_ambient_out(b->settings, scene_modifier_name(scene, primitive)),
     };
     scene->surface_count++;
-    note_mirror(b, (int)index);
+    scene_mirrors_note(b, (int)index);
     if (!scene_material_emits(&scene->materials[material]))
         return;
     if (!shape_prepare_light(&scene->shapes[index], scene->memory))
@@ -309,6 +290,8 @@ graze_status graze_scene_load(graze_scene **out, const char *const *descriptions
     if (b.status == GRAZE_OK)
         b.status = light_tree_build(&scene->light_tree, scene->lights, scene->light_count, scene->memory, report);
     if (b.status == GRAZE_OK)
+        b.status = scene_mirrors_make(scene, report);
+    if (b.status == GRAZE_OK)
         b.status = scene_balls_find(scene, report);
     if (b.status == GRAZE_OK)
         b.status = build_geometry(&b);
@@ -340,7 +323,9 @@ void graze_scene_destroy(graze_scene *scene) {
     }
     free(scene->parts);
     free(scene->lights);
+    free(scene->mirroring);
     free(scene->mirrors);
+    free(scene->mirrored_lights);
     free(scene->materials);
     free(scene->surfaces);
     free(scene->shapes);

@@ -107,7 +107,7 @@ typedef struct scene_surface {
     int material;         /* index into materials */
     int light;            /* index into lights, or -1 */
     bool no_ambient;      /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;         /* flat, of the material `mirror`, without textures; to paths, not only to light samples */
+    bool mirrors;         /* flat, a `mirror` or a pane, without textures: to paths, not only to light samples */
     unsigned short cells; /* index and 1 of its cells (scene/sight_cells.h); 0: it has none */
 } scene_surface;
 
@@ -144,16 +144,19 @@ struct graze_scene {
     size_t material_count;
     material_modifiers *modifiers; /* null where no material has any */
     bool has_mirrors;              /* not faint ones: light comes by ways that no light sample finds */
-    int *mirrors;                  /* mirror_count surfaces that do mirror */
+    int *mirroring;                /* mirroring_count surfaces that lights are sampled in */
+    size_t mirroring_count;
+    struct scene_mirror *mirrors; /* (scene/mirrors.h) the planes that these are in */
     size_t mirror_count;
-    bool has_panes;                  /* surfaces that light goes straight through */
-    bool has_refraction;             /* dielectrics, prisms */
-    bool has_secondary;              /* lights of the material illum */
-    bool mist_in_copies;             /* its surfaces are among these, and passed over */
-    struct scene_mist *mist;         /* (scene/mist.h) null: none */
-    struct scene_cuts *cuts;         /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
-    struct scene_balls *balls;       /* (scene/balls.h) that throw lights back; null: none */
-    struct sight_cells *sight_cells; /* null: none */
+    struct scene_mirrored_light *mirrored_lights; /* where lights are few; else null */
+    bool has_panes;                               /* surfaces that light goes straight through */
+    bool has_refraction;                          /* dielectrics, prisms */
+    bool has_secondary;                           /* lights of the material illum */
+    bool mist_in_copies;                          /* its surfaces are among these, and passed over */
+    struct scene_mist *mist;                      /* (scene/mist.h) null: none */
+    struct scene_cuts *cuts;                      /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
+    struct scene_balls *balls;                    /* (scene/balls.h) that throw lights back; null: none */
+    struct sight_cells *sight_cells;              /* null: none */
     scene_light *lights; /* the scene's shapes, the sources, and glows in copies; and behind, what is only seen */
     size_t light_count;
     size_t seen_light_count;

@@ -18,10 +18,10 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
         return 0;
     if (!rival)
         return 1;
+    if (last->mirror >= 0)
+        return mirrored_light_weight(p, hit);
     if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
         return 0;
-    if (last->mirror >= 0)
-        return power_heuristic(last->density, mirrored_light_density(p, hit));
     double other = light_expectation(last->lights, hit->light);
     if (other > 0)
         other *= light_density(p->context->scene, last->lights->receiver.point, hit->light, hit->direction, hit->point,

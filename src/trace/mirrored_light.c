@@ -1,187 +1,359 @@
-/* A light in a mirror is where its image is: it is sampled as the light itself from the vertex's own image. */
+/* A light in a mirror, or a pane, is where its image is: it is sampled as the light itself from the vertex's own image.
+ */
 #include "trace/mirrored_light.h"
 
-#include "geometry/crossing.h"
+#include "scene/mirrors.h"
 #include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/mist.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
+#include "trace/unmet_light.h"
 
-/* Of more mirrors that show a vertex, one is chosen. */
-#define EVERY_MIRROR 4
+/* A light in a mirror; -1: any of many. */
+typedef struct virtual_light {
+    int light;
+    double weight;
+    scene_mirror_sight sight;
+} virtual_light;
 
-static double height_over(const shape_plane *p, vec3 point) {
-    return vec3_dot(p->normal, vec3_subtract(point, p->point));
-}
+/* Goes through the lights in mirrors. */
+typedef struct virtual_lights {
+    const path_context *context;
+    const vertex *vertex;
+    bool ambient; /* light that counts as ambient is looked for */
+    size_t next;  /* mirror */
+    int light;    /* the next one in the mirror that is seen, or: */
+} virtual_lights;
+
+enum { NEXT_MIRROR = -1 };
 
 static vec3 mirror_direction(const shape_plane *p, vec3 direction) {
     return vec3_add_scaled(direction, -2 * vec3_dot(p->normal, direction), p->normal);
 }
 
-static vec3 mirror_point(const shape_plane *p, vec3 point) {
-    return vec3_add_scaled(point, -2 * height_over(p, point), p->normal);
+/* Whether all its surfaces show paths what they show light samples. */
+static bool paths_see(const graze_scene *scene, const scene_mirror *m) {
+    return scene->surfaces[scene->mirroring[m->first]].mirrors;
 }
 
-/* Whether the mirror shows the vertex: it has its front there, and is not all below the horizon as far as its plane
- * tells. What paths see it as without reflecting them, only light samples see lights in: whatever the strategy. */
-static bool shows(const path_context *context, int mirror, const vertex *v) {
+/* Whether the mirror may show something to the vertex. What paths see it as without reflecting them, only light samples
+ * see lights in: whatever the strategy. */
+static bool sees(const path_context *context, const scene_mirror *m, const vertex *v, scene_mirror_sight *sight) {
     const graze_scene *scene = context->scene;
-    const shape_plane p = shape_plane_of(&scene->shapes[mirror]);
-    if (scene->surfaces[mirror].mirrors && !context_samples_lights(context->settings))
+    if (paths_see(scene, m) && !context_samples_lights(context->settings))
         return false;
-    return mirror != v->surface && height_over(&p, v->point) > 0;
+    return scene_mirror_see(m, v->point, v->shading.n, sight) &&
+           (sight->side > 0 || context->settings->back_faces_visible);
 }
 
-static int count_shown(const path_context *context, const vertex *v) {
-    int count = 0;
-    for (size_t i = 0; i < context->scene->mirror_count; i++)
-        count += shows(context, context->scene->mirrors[i], v);
-    return count;
+/* In panes a sky is left to paths: it is seen in them wherever they are, and mostly it is what they let through that
+ * matters. All that counts as ambient is left with it, from which it cannot be told apart. */
+static bool is_left_to_paths(const graze_scene *scene, const scene_mirror *m) {
+    return m->pane && scene->has_sky;
 }
 
-/* How often each of so many is sampled on the average. */
-static double share_of(int count) {
-    return count <= EVERY_MIRROR ? 1 : 1.0 / count;
+/* `bounced`: how often the path had been reflected diffusely where the vertex is. */
+static virtual_lights virtual_lights_of(const path_context *context, const vertex *v, int bounced) {
+    bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && !v->gloss_is_ambient;
+    bool matte = !v->no_ambient && bounced < context->settings->ambient_bounces;
+    return (virtual_lights){context, v, context_samples_glows(context->settings) && (glossy || matte), 0, NEXT_MIRROR};
 }
 
-/* The lights as the vertex's image sees them. */
+/* The next one that may be seen. */
+static bool next_of(virtual_lights *all, virtual_light *l) {
+    const graze_scene *scene = all->context->scene;
+    const scene_mirrored_light *lights = scene->mirrored_lights;
+    for (;;) {
+        if (all->light == NEXT_MIRROR) {
+            if (all->next == scene->mirror_count)
+                return false;
+            if (!sees(all->context, &scene->mirrors[all->next++], all->vertex, &l->sight))
+                continue;
+            all->light = 0;
+            l->light = -1;
+            l->weight = l->sight.share * l->sight.reflects;
+            if (!lights) {
+                all->light = NEXT_MIRROR;
+                return true;
+            }
+        }
+        for (int count = (int)scene->light_count; all->light < count;) {
+            l->light = all->light++;
+            const scene_mirrored_light *light = &lights[l->light];
+            if (light->ambient && (!all->ambient || is_left_to_paths(scene, l->sight.mirror)))
+                continue;
+            l->weight = scene_mirror_shows(&l->sight, light);
+            if (l->weight > 0)
+                return true;
+        }
+        all->light = NEXT_MIRROR;
+    }
+}
+
+/* How many there are, their weights' sum, and how often any of them is to be sampled. So many are kept. */
+enum { KEPT = 8 };
+
+typedef struct survey {
+    int count;
+    double sum, often;
+    bool later; /* the path had been scattered before */
+    virtual_light kept[KEPT];
+} survey;
+
+/* What is faint is sampled as often as is worth it: of a pane, at the first point, so many times the share of light
+ * that it reflects, lest few samples all miss it; later, where paths differ anyway, so many times. */
+#define WORTH_FIRST 4.0
+#define WORTH_LATER 0.5
+
+static double worth(const virtual_light *l, bool later) {
+    return fmin((later ? WORTH_LATER : WORTH_FIRST) * l->sight.reflects, 1);
+}
+
+static void look_around(survey *found, virtual_lights all, bool later) {
+    virtual_light l;
+    found->count = 0;
+    found->sum = found->often = 0;
+    found->later = later;
+    while (next_of(&all, &l)) {
+        if (found->count < KEPT)
+            found->kept[found->count] = l;
+        found->count++;
+        found->sum += l.weight;
+        found->often += worth(&l, later);
+    }
+}
+
+/* Where that would be more than so many at one point, so many are chosen of those that matter. */
+#define MOST   4
+#define CHOSEN 2
+
+/* How often one is sampled on the average. */
+static double expectation_of(const survey *all, const virtual_light *l) {
+    return all->often <= MOST ? worth(l, all->later) : CHOSEN * l->weight / all->sum;
+}
+
+/* Of many lights, as the vertex's image sees them. */
 typedef struct image {
     graze_surface surface;
     light_choice lights;
 } image;
 
-static void prepare_image(const path *p, const vertex *v, const shape_plane *mirror, int bounced, image *made) {
-    const graze_scene *scene = p->context->scene;
+static void prepare_image(const path_context *context, const vertex *v, const scene_mirror_sight *sight, int bounced,
+                          image *made) {
+    const graze_scene *scene = context->scene;
+    const shape_plane *plane = &sight->mirror->plane;
     graze_surface *s = &made->surface;
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
-    bool glows = context_samples_glows(p->context->settings);
+    bool glows = context_samples_glows(context->settings) && !is_left_to_paths(scene, sight->mirror);
     *s = v->shading;
-    s->x = mirror_direction(mirror, s->x);
-    s->y = mirror_direction(mirror, s->y);
-    s->n = mirror_direction(mirror, s->n);
-    light_receiver receiver = {
-        .point = mirror_point(mirror, v->point), .surface = s, .diffuse = v->shading.diffuse, .draws = 1};
+    s->x = mirror_direction(plane, s->x);
+    s->y = mirror_direction(plane, s->y);
+    s->n = mirror_direction(plane, s->n);
+    light_receiver receiver = {.point = sight->image, .surface = s, .diffuse = v->shading.diffuse, .draws = 1};
     if (v->function)
         receiver.diffuse = rgb_add(receiver.diffuse, v->function_color);
     if (glossy)
         receiver.glossy = v->shading.specular;
-    if (glows && !v->no_ambient && bounced < p->context->settings->ambient_bounces)
+    if (glows && !v->no_ambient && bounced < context->settings->ambient_bounces)
         receiver.ambient_diffuse = v->ambient;
     if (glows && glossy && !v->gloss_is_ambient)
         receiver.ambient_glossy = v->shading.specular;
     light_choice_prepare(&made->lights, scene, &receiver);
 }
 
+/* Draws the light, or one of many; how often, on the average, is put into *expectation. Negative: none. */
+static int draw_light(const path *p, const vertex *v, const virtual_light *l, double random, double *expectation) {
+    *expectation = 1;
+    if (l->light >= 0)
+        return l->light;
+    image seen;
+    prepare_image(p->context, v, &l->sight, p->ambient_depth, &seen);
+    return light_choice_is_possible(&seen.lights) ? light_choose(&seen.lights, random, expectation) : -1;
+}
+
+/* Light on its way by a mirror. */
+typedef struct reflection {
+    int surface;      /* the mirror's */
+    double to_mirror; /* from the vertex */
+    vec3 onward;      /* from the mirror to the light */
+    rgb color;        /* what is reflected */
+} reflection;
+
 /* What is left of the light on both parts of its way. */
-static rgb arriving(const path *p, const vertex *v, int mirror, double to_mirror, const light_sample *sample,
-                    vec3 onward) {
+static rgb arriving(const path *p, const vertex *v, const reflection *r, const light_sample *sample) {
     const graze_scene *scene = p->context->scene;
-    geometry_ray first = {.origin = v->point, .direction = sample->direction, .far = to_mirror, .from = v->surface};
-    vec3 at = shape_pull(&scene->shapes[mirror], vec3_add_scaled(v->point, to_mirror, sample->direction));
-    double left = sample->distance < GEOMETRY_FAR ? sample->distance - to_mirror : GEOMETRY_FAR;
-    geometry_ray second = {.origin = at, .direction = onward, .far = left, .from = mirror};
-    rgb before = panes_transmittance(p->context, &first, p->length, mirror, true);
+    geometry_ray first = {.origin = v->point, .direction = sample->direction, .far = r->to_mirror, .from = v->surface};
+    vec3 at = shape_pull(&scene->shapes[r->surface], vec3_add_scaled(v->point, r->to_mirror, sample->direction));
+    double left = sample->distance < GEOMETRY_FAR ? sample->distance - r->to_mirror : GEOMETRY_FAR;
+    geometry_ray second = {.origin = at, .direction = r->onward, .far = left, .from = r->surface};
+    rgb before = panes_transmittance(p->context, &first, p->length, r->surface, true);
     if (!(left > 0) || rgb_is_black(before))
         return rgb_gray(0);
     if (path_is_in_body(p))
-        before = rgb_multiply(before, path_medium_transmittance(p, to_mirror + left));
+        before = rgb_multiply(before, path_medium_transmittance(p, r->to_mirror + left));
     if (p->in_mist) {
         bool direct = light_role_at(&scene->lights[sample->light], sample->distance) == LIGHT_DIRECT;
-        before = rgb_multiply(before, mist_transmittance(p->context, v->point, sample->direction, to_mirror, direct));
-        before = rgb_multiply(before, mist_transmittance(p->context, at, onward, left, direct));
+        before =
+            rgb_multiply(before, mist_transmittance(p->context, v->point, sample->direction, r->to_mirror, direct));
+        before = rgb_multiply(before, mist_transmittance(p->context, at, r->onward, left, direct));
     }
-    rgb behind = panes_transmittance(p->context, &second, p->length + to_mirror, scene->lights[sample->light].surface,
-                                     light_is_proper(scene, sample->light));
+    rgb behind = panes_transmittance(p->context, &second, p->length + r->to_mirror,
+                                     scene->lights[sample->light].surface, light_is_proper(scene, sample->light));
     return rgb_multiply(before, behind);
 }
 
+/* What a pane reflects of what arrives along the direction. */
+static rgb pane_color(const graze_scene *scene, int surface, vec3 direction) {
+    const vec3 n = shape_plane_of(&scene->shapes[surface]).normal, view = vec3_negate(direction);
+    graze_surface s;
+    graze_surface_prepare(&s, &scene->materials[scene->surfaces[surface].material].reflector,
+                          vec3_dot(n, view) < 0 ? vec3_negate(n) : n, view, NULL);
+    return s.specular;
+}
+
 /* What the mirror reflects, where it shows the light. */
-static rgb color_of(const path *p, const vertex *v, int mirror, double to_mirror, vec3 direction) {
+static rgb color_of(const path *p, const vertex *v, const scene_mirror *m, const reflection *r, vec3 direction) {
     const graze_scene *scene = p->context->scene;
-    const scene_material *material = &scene->materials[scene->surfaces[mirror].material];
+    const scene_material *material = &scene->materials[scene->surfaces[r->surface].material];
+    if (m->pane)
+        return pane_color(scene, r->surface, direction);
     if (!material->modifiers)
         return material->reflector.color;
-    const path_hit hit = {.surface = mirror,
+    const path_hit hit = {.surface = r->surface,
                           .light = -1,
-                          .distance = to_mirror,
-                          .point = vec3_add_scaled(v->point, to_mirror, direction),
-                          .normal = shape_plane_of(&scene->shapes[mirror]).normal,
+                          .distance = r->to_mirror,
+                          .point = vec3_add_scaled(v->point, r->to_mirror, direction),
+                          .normal = shape_plane_of(&scene->shapes[r->surface]).normal,
                           .direction = direction};
     return appearance_reflector(scene, material, &hit, p->length).color;
 }
 
-static void add_from(path *p, const vertex *v, int mirror, double expectation, const double random[3],
+/* Where the mirror reflects light in this direction to the vertex, if it does before its way ends. */
+static bool find_reflection(const path *p, const vertex *v, const scene_mirror *m, vec3 direction, double distance,
+                            reflection *r) {
+    const graze_scene *scene = p->context->scene;
+    double slope = vec3_dot(m->plane.normal, direction);
+    r->to_mirror = vec3_dot(m->plane.normal, vec3_subtract(m->plane.point, v->point)) / slope;
+    if (!(r->to_mirror > 0 && r->to_mirror < distance))
+        return false;
+    r->surface = scene_mirror_at(scene, m, vec3_add_scaled(v->point, r->to_mirror, direction));
+    if (r->surface < 0 || r->surface == v->surface)
+        return false;
+    r->color = color_of(p, v, m, r, direction);
+    return true;
+}
+
+/* What may find the same as a light sample does: of what a pane shows, paths find as much less as it reflects. */
+static lobe_choice rivals_of(const path *p, const scene_mirror *m, const reflection *r, const lobe_choice *choice) {
+    if (!paths_see(p->context->scene, m))
+        return (lobe_choice){0};
+    lobe_choice rivals = *choice;
+    if (m->pane) {
+        rivals.diffuse *= rgb_max(r->color);
+        rivals.specular *= rgb_max(r->color);
+    }
+    return rivals;
+}
+
+static void add_from(path *p, const vertex *v, const virtual_light *l, double expectation, const double random[3],
                      const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
-    const shape *s = &scene->shapes[mirror];
-    const shape_plane flat = shape_plane_of(s);
-    image seen;
-    prepare_image(p, v, &flat, p->ambient_depth, &seen);
-    if (!light_choice_is_possible(&seen.lights))
-        return;
-    double chance, to_mirror;
-    int light = light_choose(&seen.lights, random[0], &chance);
+    const scene_mirror *m = l->sight.mirror;
+    reflection r;
+    double chance;
+    int light = draw_light(p, v, l, random[2], &chance);
     if (light < 0)
         return;
-    light_sample sample = light_draw(scene, seen.lights.receiver.point, p->length, light, random + 1);
+    light_sample sample = light_draw(scene, l->sight.image, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
         return;
-    vec3 onward = sample.direction;
-    sample.direction = mirror_direction(&flat, onward);
+    r.onward = sample.direction;
+    sample.direction = mirror_direction(&m->plane, r.onward);
     double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * chance * sample.density;
     if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0) ||
-        !shape_front_crossing(s, v->point, sample.direction, &to_mirror) || to_mirror >= sample.distance)
+        !find_reflection(p, v, m, sample.direction, sample.distance, &r))
         return;
     /* Where paths do not see the light in it, only what lights as a light does is seen by others. */
-    static const lobe_choice no_rival = {0};
-    const lobe_choice *rivals = scene->surfaces[mirror].mirrors ? choice : &no_rival;
-    if (rivals == &no_rival && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
+    if (!paths_see(scene, m) && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
         return;
-    rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, rivals), sample.radiance);
+    const lobe_choice rivals = rivals_of(p, m, &r, choice);
+    rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, &rivals), sample.radiance);
     if (rgb_is_black(reflected))
         return;
-    rgb color = color_of(p, v, mirror, to_mirror, sample.direction);
-    rgb found = rgb_multiply(rgb_multiply(arriving(p, v, mirror, to_mirror, &sample, onward), color), reflected);
+    rgb found = rgb_multiply(rgb_multiply(arriving(p, v, &r, &sample), r.color), reflected);
     found = rgb_scale(cosine / density, rgb_multiply(p->throughput, found));
     p->radiance = rgb_add(p->radiance, found);
     if (!rgb_is_black(found))
         observe_shadow_ray(p, v->point, &sample, found);
 }
 
-void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
-    const graze_scene *scene = p->context->scene;
-    bool dull = v->shading.specular_lobe != GRAZE_LOBE_GLOSSY && rgb_is_black(v->ambient) && !v->function;
-    dull = dull || p->wanted == WANTED_BENT;
-    int count = dull ? 0 : count_shown(p->context, v);
-    double random[3];
-    if (count == 0)
-        return;
-    int chosen = -1;
-    if (count > EVERY_MIRROR) {
-        sampler_2d(p->sampler, random);
-        chosen = (int)(random[0] * count);
-    }
-    for (size_t i = 0, number = 0; i < scene->mirror_count; i++) {
-        if (!shows(p->context, scene->mirrors[i], v) || (chosen >= 0 && (int)number++ != chosen))
-            continue;
-        sampler_3d(p->sampler, random);
-        add_from(p, v, scene->mirrors[i], share_of(count), random, choice);
+/* By one number for all: where the sum of what is expected so far passes it, or it and a whole number. */
+static void add_chosen(path *p, const vertex *v, virtual_lights all, const survey *found, const lobe_choice *choice) {
+    virtual_light other;
+    double random[3] = {0}, sum = 0, next;
+    if (found->often < found->count || found->often > MOST)
+        random[0] = sampler_1d(p->sampler);
+    next = random[0];
+    for (int i = 0; i < found->count; i++) {
+        if (found->count > KEPT)
+            (void)next_of(&all, &other);
+        const virtual_light *l = found->count > KEPT ? &other : &found->kept[i];
+        double expectation = expectation_of(found, l);
+        for (sum += expectation; next < sum; next++) {
+            sampler_3d(p->sampler, random);
+            add_from(p, v, l, expectation, random, choice);
+        }
     }
 }
 
-double mirrored_light_density(const path *p, const path_hit *hit) {
+void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
+    bool dull = v->shading.specular_lobe != GRAZE_LOBE_GLOSSY && rgb_is_black(v->ambient) && !v->function;
+    if (dull || p->wanted == WANTED_BENT)
+        return;
+    const virtual_lights all = virtual_lights_of(p->context, v, p->ambient_depth);
+    survey found;
+    look_around(&found, all, p->scattered);
+    if (found.count > 0)
+        add_chosen(p, v, all, &found, choice);
+}
+
+/* How densely that would have found the light that the path has hit after its last scattering and then a mirror. */
+static double density_of(const path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
-    const scattering *last = &p->last;
-    const shape_plane mirror = shape_plane_of(&scene->shapes[last->mirror]);
-    int bounced = p->ambient_depth - (last->lobe == GRAZE_LOBE_DIFFUSE);
-    image seen;
-    if (!shows(p->context, last->mirror, last->vertex))
+    const vertex *v = p->last.vertex;
+    const scene_mirror *m = scene_mirror_of(scene, p->last.mirror);
+    int bounced = p->ambient_depth - (p->last.lobe == GRAZE_LOBE_DIFFUSE);
+    const virtual_lights all = virtual_lights_of(p->context, v, bounced);
+    virtual_lights left = all;
+    virtual_light l;
+    bool found = false;
+    while (!found && next_of(&left, &l))
+        found = l.sight.mirror == m && (l.light < 0 || l.light == hit->light);
+    if (!found)
         return 0;
-    prepare_image(p, last->vertex, &mirror, bounced, &seen);
-    double expectation = share_of(count_shown(p->context, last->vertex)) * light_expectation(&seen.lights, hit->light);
-    if (expectation == 0)
+    survey among;
+    look_around(&among, all, !p->last.first);
+    double expectation = expectation_of(&among, &l);
+    if (l.light < 0) {
+        image seen;
+        prepare_image(p->context, v, &l.sight, bounced, &seen);
+        expectation *= light_expectation(&seen.lights, hit->light);
+    }
+    return expectation == 0
+               ? 0
+               : expectation * light_density(scene, l.sight.image, hit->light, hit->direction, hit->point, hit->normal);
+}
+
+double mirrored_light_weight(const path *p, const path_hit *hit) {
+    const graze_scene *scene = p->context->scene;
+    const scene_material *material = &scene->materials[scene->surfaces[p->last.mirror].material];
+    double other = density_of(p, hit), own = p->last.density;
+    if (other == 0)
+        return 1;
+    if (p->context->settings->strategy == GRAZE_STRATEGY_LIGHT)
         return 0;
-    return expectation *
-           light_density(scene, seen.lights.receiver.point, hit->light, hit->direction, hit->point, hit->normal);
+    if (material->reflector.kind == GRAZE_GLASS)
+        own *= rgb_max(pane_color(scene, p->last.mirror, hit->direction));
+    return power_heuristic(own, other);
 }

@@ -218,6 +218,61 @@ static void a_lamp_and_its_image(void **state) {
     }
 }
 
+/* What a pane of glass with the index 1.52 reflects of light that meets it at this cosine. */
+static double reflected_by_pane(double cosine, double transmissivity) {
+    double inside = sqrt(1 - (1 - cosine * cosine) / (1.52 * 1.52)), body = pow(transmissivity, 1 / inside), sum = 0;
+    const double amplitudes[2] = {(cosine - 1.52 * inside) / (cosine + 1.52 * inside),
+                                  (1.52 * cosine - inside) / (1.52 * cosine + inside)};
+    for (int i = 0; i < 2; i++) {
+        double face = amplitudes[i] * amplitudes[i], through = (1 - face) * body;
+        /* Once at the front; at the back after no, two, four... reflections inside. */
+        double all = face, inner = through * face * (1 - face) * body;
+        for (int k = 0; k < 20; k++, inner *= face * face * body * body)
+            all += inner;
+        sum += all / 2;
+    }
+    return sum;
+}
+
+/* The sun over a floor, and the same in one of two panes beside each other, from before or from behind it; a pane on
+ * the way of light before it is reflected, or after that, takes its part. */
+static void a_sun_in_a_pane(void **state) {
+    (void)state;
+    const double albedo = 0.5, radiance = 1e6, half_sine = sin(angle_radians(0.25));
+    for (int way = 0; way < 4; way++) {
+        char text[800];
+        const char *turned = way == 1 ? "12 0 2 0 1 2 0 1 2 3 0 2 3" : "12 0 2 3 1 2 3 1 2 0 0 2 0";
+        snprintf(text, sizeof text,
+                 "void plastic f 0 0 5 .5 .5 .5 0 0\nf ring floor 0 0 8 0 0 0 0 0 1 0 90\n"
+                 "void glass g 0 0 3 .9 .9 .9\ng polygon a 0 0 %s\ng polygon b 0 0 12 -1 2 0 0 2 0 0 2 3 -1 2 3\n"
+                 "void light l 0 0 3 1e6 1e6 1e6\nl source sun 0 0 4 0 -3 4 .5\n%s",
+                 turned, way == 2 ? "g ring c 0 0 8 0 1.9 1.2 0 1 0 0 1\n" : "");
+        graze_scene *scene = load(text);
+        /* The floor at y = 1 sees the sun at the height 4/3 of the pane. */
+        const graze_ray ray = {.origin = {way == 3 ? -0.2 : 0.2, 1, 0.5}, .direction = {0, 0, -1}};
+        double image = reflected_by_pane(0.6, 0.9), clear = 1;
+        if (way == 2) {
+            double inside = sqrt(1 - 0.64 / (1.52 * 1.52)), body = pow(0.9, 1 / inside);
+            double a = pow((0.6 - 1.52 * inside) / (0.6 + 1.52 * inside), 2);
+            double b = pow((1.52 * 0.6 - inside) / (1.52 * 0.6 + inside), 2);
+            clear = ((1 - a) * (1 - a) * body / (1 - a * a * body * body) +
+                     (1 - b) * (1 - b) * body / (1 - b * b * body * body)) /
+                    2;
+            image = image * clear * clear + image;
+        }
+        double truth = albedo * radiance * half_sine * half_sine * 0.8 * (1 + image);
+        for (int bounces = 0; bounces < 2; bounces++)
+            for (int strategy = 0; strategy < 2; strategy++) {
+                graze_trace_settings s = graze_trace_defaults();
+                s.strategy = strategy ? GRAZE_STRATEGY_LIGHT : GRAZE_STRATEGY_MIS;
+                s.ambient_bounces = bounces;
+                s.samples = 1 << 12;
+                assert_radiance(scene, &s, &ray, 3, truth, 0.005);
+            }
+        graze_scene_destroy(scene);
+    }
+}
+
 /* What is inside a clear body is seen through so much of it. */
 static void a_lamp_in_a_dark_ball(void **state) {
     (void)state;
@@ -252,10 +307,15 @@ static void a_sky_below_open_water(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clear_things_in_a_white_world), cmocka_unit_test(a_floor_lit_through_panes),
-        cmocka_unit_test(a_lamp_in_a_dark_ball),         cmocka_unit_test(a_lamp_and_its_image),
-        cmocka_unit_test(lamp_in_a_grey_ball),           cmocka_unit_test(white_things_in_a_white_world),
-        cmocka_unit_test(glossy_ball_in_a_white_world),  cmocka_unit_test(a_sky_below_open_water),
+        cmocka_unit_test(clear_things_in_a_white_world),
+        cmocka_unit_test(a_floor_lit_through_panes),
+        cmocka_unit_test(a_lamp_in_a_dark_ball),
+        cmocka_unit_test(a_lamp_and_its_image),
+        cmocka_unit_test(a_sun_in_a_pane),
+        cmocka_unit_test(lamp_in_a_grey_ball),
+        cmocka_unit_test(white_things_in_a_white_world),
+        cmocka_unit_test(glossy_ball_in_a_white_world),
+        cmocka_unit_test(a_sky_below_open_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

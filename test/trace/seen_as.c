@@ -132,6 +132,47 @@ static void strategies_agree_about_mirrors_with_alternates(void **state) {
         }
 }
 
+/* Lamps in panes of glass: small ones and large ones, few and many; what is behind other panes, seen by gloss, and from
+ * behind; panes in one plane, and in many. */
+static void strategies_agree_about_light_by_panes(void **state) {
+    (void)state;
+#define GLASS "void glass i 0 0 3 .8 .7 .6 "
+#define LAMP  "void light l 0 0 3 40 30 20 l sphere lamp 0 0 4 .4 .3 .9 .3 "
+    static const char *const things[] = {
+        GLASS LAMP PANE("i"),
+        "void colorfunc p 4 Px .5 1 . 0 0 p glass i 0 0 4 .8 .7 .6 1.8 " LAMP PANE("i"),
+        GLASS LAMP "i polygon pane 0 0 12 -1 -1 1.5 1 -1 1.5 1 1 1.5 -1 1 1.5 ",
+        GLASS LAMP "i ring pane 0 0 8 .3 .2 1.5 .1 .1 1 .2 .9 i ring other 0 0 8 .3 .2 1.3 .1 .1 1 0 .9 ",
+        GLASS "void glow l 0 0 4 40 30 20 0 l sphere lamp 0 0 4 .4 .3 .9 .3 " PANE("i"),
+        GLASS LAMP PANE("i") "void glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 -1 180 ",
+        GLASS LAMP PANE("i") "l sphere a 0 0 4 -.4 .3 .9 .1 l sphere b 0 0 4 -.4 -.3 .9 .1 l sphere c 0 0 4 0 0 1 .1 "
+                             "l sphere d 0 0 4 -.4 0 .9 .1 l sphere e 0 0 4 0 -.3 .9 .1 l sphere f 0 0 4 0 .3 1 .1 "
+                             "l sphere g 0 0 4 -.6 0 .9 .1 l sphere h 0 0 4 0 -.6 .9 .1 ",
+        GLASS LAMP PANE("i") "i polygon b 0 0 12 1 -1 1.5 1 1 1.5 3 1 1.5 3 -1 1.5 i polygon c 0 0 12 -1 -1 1.6 -1 1 "
+                             "1.6 1 1 1.6 1 -1 1.6 i polygon d 0 0 12 -1 1 0 1 1 0 1 1 2 -1 1 2 i polygon e 0 0 12 1 "
+                             "-1 0 1 1 0 1 1 2 1 -1 2 i polygon f 0 0 12 -1 -1 0 -1 1 0 -1 1 2 -1 -1 2 ",
+    };
+    static const char *const floors[] = {"void plastic m 0 0 5 .5 .4 .3 .1 .2 ", "void metal m 0 0 5 .5 .4 .3 .8 .3 "};
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++)
+        for (int bounces = 0; bounces <= 1; bounces++) {
+            char text[1500];
+            snprintf(text, sizeof text, "%s m polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0 %s", floors[i % 2],
+                     things[i]);
+            const vec3 eye = {0.2, -2, 0.8};
+            const graze_ray ray = {.origin = eye, .direction = vec3_subtract((vec3){0.1, 0.2, 0}, eye)};
+            graze_trace_settings settings = graze_trace_defaults();
+            settings.ambient_bounces = bounces;
+            settings.samples = 40000;
+            settings.back_faces_visible = i != 2;
+            const graze_answer both = answer_along(text, &settings, ray);
+            settings.strategy = GRAZE_STRATEGY_LIGHT;
+            assert_answers_agree(text, both, answer_along(text, &settings, ray));
+            settings.strategy = GRAZE_STRATEGY_BRDF;
+            assert_answers_agree(text, both, answer_along(text, &settings, ray));
+            assert_true(rgb_brightness(both.value) > 0);
+        }
+}
+
 /* To the eye it is that material, and throws no light back that it had not. */
 static void mirrors_are_seen_as_others(void **state) {
     (void)state;
@@ -155,6 +196,7 @@ int main(void) {
         cmocka_unit_test(strategies_agree_about_illums),
         cmocka_unit_test(illums_are_seen_as_others),
         cmocka_unit_test(strategies_agree_about_mirrors_with_alternates),
+        cmocka_unit_test(strategies_agree_about_light_by_panes),
         cmocka_unit_test(mirrors_are_seen_as_others),
         cmocka_unit_test(prisms_do_what_their_functions_say),
     };
