@@ -182,3 +182,21 @@ bool shape_flat_contains(const shape *s, vec3 point) {
     double radius = vec3_length(vec3_subtract(point, s->ring.center));
     return radius >= s->ring.r0 && radius <= s->ring.r1;
 }
+
+static double distance_to_side(vec3 a, vec3 b, vec3 point) {
+    vec3 side = vec3_subtract(b, a), from = vec3_subtract(point, a);
+    double square = vec3_dot(side, side), along = square > 0 ? vec3_dot(from, side) / square : 0;
+    return vec3_length(vec3_add_scaled(from, -fmin(fmax(along, 0), 1), side));
+}
+
+double shape_flat_outline(const shape *s, vec3 point) {
+    if (s->kind != SHAPE_POLYGON) {
+        double radius = vec3_length(vec3_subtract(point, s->ring.center));
+        return fmin(fabs(radius - s->ring.r1), s->ring.r0 > 0 ? fabs(radius - s->ring.r0) : INFINITY);
+    }
+    double least = INFINITY;
+    uint32_t count = s->polygon.vertex_count;
+    for (uint32_t i = 0, before = count - 1; i < count; before = i++)
+        least = fmin(least, distance_to_side(s->polygon.vertices[before], s->polygon.vertices[i], point));
+    return least;
+}

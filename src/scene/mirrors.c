@@ -242,6 +242,30 @@ double scene_mirror_shows(const scene_mirror_sight *s, const scene_mirrored_ligh
     return shown ? s->reflects * light->brightness * share : 0;
 }
 
+bool scene_mirror_cuts(const graze_scene *scene, const scene_mirror_sight *s, const scene_mirrored_light *light) {
+    const vec3 n = s->mirror->plane.normal;
+    vec3 axis = light->middle;
+    double sine = light->radius, cosine = light->cosine;
+    if (!light->source) {
+        axis = vec3_subtract(light->middle, s->image);
+        sine = light->radius / vec3_length(axis);
+        cosine = sqrt(fmax(1 - sine * sine, 0));
+        axis = vec3_scale(1 / vec3_length(axis), axis);
+    }
+    double rise = s->side * vec3_dot(n, axis), slant = sqrt(fmax(1 - rise * rise, 0));
+    double lowest = rise * cosine - slant * sine; /* of the rise of the cone's directions */
+    if (!(sine < 1 && cosine > 0 && lowest > 0))
+        return true;
+    double way = -s->side * vec3_dot(n, vec3_subtract(s->image, s->mirror->plane.point)) / rise;
+    /* From there to the farthest point of the ellipse that the cone is in the plane, by the law of sines. */
+    double reach = way * sine / lowest * SLACK;
+    vec3 at = vec3_add_scaled(s->image, way, axis);
+    for (int i = s->mirror->first; i < s->mirror->first + s->mirror->count; i++)
+        if (shape_flat_outline(&scene->shapes[scene->mirroring[i]], at) <= reach)
+            return true;
+    return false;
+}
+
 int scene_mirror_at(const graze_scene *scene, const scene_mirror *m, vec3 point) {
     for (int i = m->first; i < m->first + m->count; i++)
         if (shape_flat_contains(&scene->shapes[scene->mirroring[i]], point))

@@ -2,6 +2,7 @@
  */
 #include "trace/mirrored_light.h"
 
+#include "base/angle.h"
 #include "scene/mirrors.h"
 #include "trace/appearance.h"
 #include "trace/direct_light.h"
@@ -256,7 +257,8 @@ static lobe_choice rivals_of(const path *p, const scene_mirror *m, const reflect
     return rivals;
 }
 
-static void add_from(path *p, const vertex *v, const virtual_light *l, double expectation, const double random[3],
+/* Whether it finds anything. */
+static bool add_from(path *p, const vertex *v, const virtual_light *l, double expectation, const double random[3],
                      const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
     const scene_mirror *m = l->sight.mirror;
@@ -264,28 +266,64 @@ static void add_from(path *p, const vertex *v, const virtual_light *l, double ex
     double chance;
     int light = draw_light(p, v, l, random[2], &chance);
     if (light < 0)
-        return;
+        return false;
     light_sample sample = light_draw(scene, l->sight.image, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
-        return;
+        return false;
     r.onward = sample.direction;
     sample.direction = mirror_direction(&m->plane, r.onward);
     double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * chance * sample.density;
     if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0) ||
         !find_reflection(p, v, m, sample.direction, sample.distance, &r))
-        return;
+        return false;
     /* Where paths do not see the light in it, only what lights as a light does is seen by others. */
     if (!paths_see(scene, m) && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
-        return;
+        return false;
     const lobe_choice rivals = rivals_of(p, m, &r, choice);
     rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, &rivals), sample.radiance);
     if (rgb_is_black(reflected))
-        return;
+        return false;
     rgb found = rgb_multiply(rgb_multiply(arriving(p, v, &r, &sample), r.color), reflected);
     found = rgb_scale(cosine / density, rgb_multiply(p->throughput, found));
     p->radiance = rgb_add(p->radiance, found);
-    if (!rgb_is_black(found))
-        observe_shadow_ray(p, v->point, &sample, found);
+    if (rgb_is_black(found))
+        return false;
+    observe_shadow_ray(p, v->point, &sample, found);
+    return true;
+}
+
+/* The brightness that a light adds, as its middle shows it, where the mirror shows all of it and nothing hides it. */
+static double brightness_of_whole(const path *p, const vertex *v, const virtual_light *l) {
+    static const lobe_choice no_rivals = {0};
+    const graze_scene *scene = p->context->scene;
+    const scene_mirror *m = l->sight.mirror;
+    light_sample sample = light_draw_middle(scene, l->sight.image, p->length, l->light);
+    if (sample.light < 0)
+        return 0;
+    sample.direction = mirror_direction(&m->plane, sample.direction);
+    double slope = vec3_dot(m->plane.normal, sample.direction), cosine = vec3_dot(sample.direction, v->shading.n);
+    reflection r = {.surface = scene->mirroring[m->first],
+                    .to_mirror = vec3_dot(m->plane.normal, vec3_subtract(m->plane.point, v->point)) / slope};
+    if (!(cosine > 0 && r.to_mirror > 0))
+        return 0;
+    rgb value = direct_light_reflectance(p, v, &sample, 1, &no_rivals);
+    rgb arriving = rgb_multiply(color_of(p, v, m, &r, sample.direction), sample.radiance);
+    return rgb_brightness(rgb_multiply(p->throughput, rgb_multiply(value, arriving))) *
+           fmin(cosine / sample.density, PI);
+}
+
+/* Of a light that a mirror's edge may cut, and that is not yet scattered, notes what it might give: where no sample
+ * finds any of it, some may yet be seen. Null: nothing is noted. */
+static path_unmet_at *note_cut(const path *p, const vertex *v, const virtual_light *l, double expectation) {
+    const graze_scene *scene = p->context->scene;
+    if (p->scattered || l->light < 0 || !p->context->memory || p->context->observer)
+        return NULL;
+    path_unmet_at *at = unmet_light_at(p, scene->mirroring[l->sight.mirror->first], l->light);
+    if (at && at->expected == UNMET_LIGHT_NEW)
+        at->expected = scene_mirror_cuts(scene, &l->sight, &scene->mirrored_lights[l->light])
+                           ? brightness_of_whole(p, v, l) / expectation
+                           : 0;
+    return at;
 }
 
 /* By one number for all: where the sum of what is expected so far passes it, or it and a whole number. */
@@ -300,9 +338,12 @@ static void add_chosen(path *p, const vertex *v, virtual_lights all, const surve
             (void)next_of(&all, &other);
         const virtual_light *l = found->count > KEPT ? &other : &found->kept[i];
         double expectation = expectation_of(found, l);
+        path_unmet_at *cut = note_cut(p, v, l, expectation);
         for (sum += expectation; next < sum; next++) {
             sampler_3d(p->sampler, random);
-            add_from(p, v, l, expectation, random, choice);
+            bool met = add_from(p, v, l, expectation, random, choice);
+            if (cut)
+                cut->met = cut->met || met;
         }
     }
 }

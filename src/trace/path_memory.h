@@ -24,11 +24,13 @@ typedef struct path_memory_light {
  * nothing stood in its way. */
 typedef struct path_unmet_at {
     int depth, passages;
-    bool met; /* some of it was found */
+    int surface, light; /* of a light in a mirror: a surface of that, and the light; else negative */
+    bool met;           /* some of it was found */
     double expected;
 } path_unmet_at;
 
-enum { PATH_UNMET = 8 };
+/* Of lights in mirrors, half as many at most. */
+enum { PATH_UNMET = 16 };
 
 typedef struct path_unmet {
     int count;

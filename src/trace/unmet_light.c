@@ -56,17 +56,26 @@ static double from_lights(const path *p, const gathering *here) {
     return sum;
 }
 
-/* Of vertices behind as many mirrors and panes, the first stands for all. */
-void unmet_light_expect(path *p, const gathering *here) {
+path_unmet_at *unmet_light_at(const path *p, int surface, int light) {
     path_unmet *unmet = &p->context->memory->unmet;
-    int i = 0;
-    while (i < unmet->count && (unmet->at[i].depth != p->depth || unmet->at[i].passages != p->passages))
-        i++;
-    if (i == PATH_UNMET)
+    for (int i = 0; i < unmet->count; i++) {
+        path_unmet_at *at = &unmet->at[i];
+        if (at->depth == p->depth && at->passages == p->passages && at->surface == surface && at->light == light)
+            return at;
+    }
+    if (unmet->count == PATH_UNMET || (surface >= 0 && unmet->count >= PATH_UNMET / 2))
+        return NULL;
+    unmet->at[unmet->count] = (path_unmet_at){p->depth, p->passages, surface, light, false, UNMET_LIGHT_NEW};
+    return &unmet->at[unmet->count++];
+}
+
+void unmet_light_expect(path *p, const gathering *here) {
+    path_unmet_at *at = unmet_light_at(p, -1, -1);
+    if (!at)
         return;
-    if (i == unmet->count)
-        unmet->at[unmet->count++] = (path_unmet_at){p->depth, p->passages, false, from_lights(p, here)};
-    p->unmet = &unmet->at[i];
+    if (at->expected == UNMET_LIGHT_NEW)
+        at->expected = from_lights(p, here);
+    p->unmet = at;
     p->before = p->radiance;
 }
 

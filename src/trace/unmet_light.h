@@ -10,6 +10,11 @@
  * them without samples must have been added. */
 void unmet_light_expect(path *, const gathering *);
 
+/* What is noted of a light in a mirror, where the path is, or with negative numbers of those in none; of what is noted
+ * there first, only that it is new. Null: there is no room. */
+#define UNMET_LIGHT_NEW (-1)
+path_unmet_at *unmet_light_at(const path *, int surface, int light);
+
 /* Once the path, or its branch, has ended: takes whether it has met any of that. */
 void unmet_light_settle(path *);
 

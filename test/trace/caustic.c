@@ -211,6 +211,43 @@ static void what_is_not_met_is_in_the_error(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* A lamp that a mirror's edge, or a pane's, shows a little of: no answer that misses it is certain. And where the lamp
+ * is seen wholly, or not at all, the error is what it was. */
+static void what_mirrors_may_show_is_in_the_error(void **state) {
+    (void)state;
+    const char *const materials[] = {"mirror m 0 0 3 .9 .9 .9", "glass m 0 0 3 .9 .9 .9"};
+    for (int pane = 0; pane < 2; pane++) {
+        char text[800];
+        snprintf(text, sizeof text,
+                 "void plastic g 0 0 5 .6 .6 .6 0 0 g polygon floor 0 0 12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
+                 "void light l 0 0 3 20 20 20 l polygon lamp 0 0 12 -.2 -1.2 2 -.2 -.8 2 .2 -.8 2 .2 -1.2 2\n"
+                 "void %s m polygon pane 0 0 12 -1 0 .2 1 0 .2 1 0 1.5 -1 0 1.5\n",
+                 materials[pane]);
+        graze_scene *scene = load(text);
+        graze_trace_settings s = graze_trace_defaults();
+        s.error = 0.05;
+        enum { RAYS = 600 };
+        int covered = 0, exact = 0;
+        for (uint64_t i = 0; i < RAYS; i++) {
+            /* The lamp's image is above the upper edge from about y = -3 on, and here and there beside the others. */
+            const graze_ray ray = {
+                .origin = {0.6 + 2.4 * (double)i / RAYS, -0.5 - 3.4 * (double)(i * 37 % RAYS) / RAYS, 1},
+                .direction = {0, 0, -1}};
+            graze_answer answer;
+            const graze_answer truth = truth_of(scene, s, &ray, 4096, i + 1);
+            graze_trace(scene, &s, &ray, i, &answer, NULL);
+            bool certain = answer.standard_error.g < 1e-6 * answer.value.g;
+            covered += is_covered(&answer, &truth);
+            exact += certain;
+            if (certain && fabs(answer.value.g - truth.value.g) > 1e-6 * truth.value.g)
+                fail_msg("%s, ray %d: %g, not %g", materials[pane], (int)i, truth.value.g, answer.value.g);
+        }
+        printf("# %s: %.1f%% covered, %.1f%% exact\n", materials[pane], 100.0 * covered / RAYS, 100.0 * exact / RAYS);
+        assert_true(covered >= 0.95 * RAYS);
+        graze_scene_destroy(scene);
+    }
+}
+
 static void zeros_are_exact_where_all_is_dark(void **state) {
     (void)state;
     graze_scene *scene = load(SUN "void plastic g 0 0 5 .5 .5 .5 0 0 g sphere ball 0 0 4 0 0 0 1\n");
@@ -228,6 +265,7 @@ int main(void) {
                                        cmocka_unit_test(what_bent_panes_reflect_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_panes_reflect),
                                        cmocka_unit_test(what_is_not_met_is_in_the_error),
+                                       cmocka_unit_test(what_mirrors_may_show_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_shines_through),
                                        cmocka_unit_test(what_clear_bodies_throw_is_in_the_error),
                                        cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
