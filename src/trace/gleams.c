@@ -190,8 +190,9 @@ static bool is_hidden(const gleams *all, const gleams_of_ball *b, const mirrorin
                         .direction = m->to_light,
                         .far = light->source ? GEOMETRY_FAR : m->light_distance,
                         .from = b->ball->surface};
-    return geometry_occluded(all->scene->geometry, &seen, b->ball->surface) ||
-           geometry_occluded(all->scene->geometry, &lit, light->surface);
+    bool panes;
+    return geometry_occluded_but_for_panes(all->scene->geometry, &seen, b->ball->surface, &panes) ||
+           geometry_occluded_but_for_panes(all->scene->geometry, &lit, light->surface, &panes);
 }
 
 /* What hides the middle of a gleam may leave some of it. */

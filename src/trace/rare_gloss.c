@@ -64,6 +64,12 @@ void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, dou
            share_of_directions(v, beyond, sample->density));
 }
 
+/* Whether a ray comes to the light: panes on its way let it through. */
+static bool is_clear_to(const graze_scene *scene, const geometry_ray *ray, int light) {
+    bool panes;
+    return !geometry_occluded_but_for_panes(scene->geometry, ray, scene->lights[light].surface, &panes);
+}
+
 /* Whether light from the direction arrives at the body that a vertex belongs to: there, or else where a ray from there
  * leaves it. */
 static bool body_is_lit(const path *p, const vertex *v, const light_sample *sample) {
@@ -77,7 +83,7 @@ static bool body_is_lit(const path *p, const vertex *v, const light_sample *samp
         ray.origin = end.point;
         ray.far -= end.distance;
     }
-    return !geometry_occluded(scene->geometry, &ray, scene->lights[sample->light].surface);
+    return is_clear_to(scene, &ray, sample->light);
 }
 
 /* The light as its middle shows it, if it is rare there and may be reflected by gloss. */
@@ -138,8 +144,7 @@ static void expect_in_mirror(path *p, const vertex *v, int index, double expecta
     if (!look_at_light(p, v, index, &sample))
         return;
     geometry_ray ray = {.origin = v->point, .direction = sample.direction, .far = sample.distance, .from = v->surface};
-    if (vec3_dot(sample.direction, v->shading.n) > 0 &&
-        !geometry_occluded(scene->geometry, &ray, scene->lights[index].surface))
+    if (vec3_dot(sample.direction, v->shading.n) > 0 && is_clear_to(scene, &ray, index))
         rare_gloss_expect(p, v, &sample, expectation);
 }
 

@@ -54,10 +54,12 @@ static int count_covering(const graze_scene *scene, const graze_trace_settings *
     return covered;
 }
 
-static void intervals_cover_a_caustic(void **state) {
-    (void)state;
-    graze_scene *scene = load(SUN "void plastic g 0 0 5 .3 .3 .3 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 20\n"
-                                  "void metal m 0 0 5 .7 .7 .7 .9 .1 m sphere ball 0 0 4 0 0 1 .99\n");
+#define BALL_ON_FLOOR                                                                                                  \
+    SUN "void plastic g 0 0 5 .3 .3 .3 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 20\n"                                      \
+        "void metal m 0 0 5 .7 .7 .7 .9 .1 m sphere ball 0 0 4 0 0 1 .99\n"
+
+static void assert_covers_a_caustic(const char *text) {
+    graze_scene *scene = load(text);
     graze_trace_settings s = graze_trace_defaults();
     s.ambient_bounces = 1;
     graze_ray ray = ray_to_circle(0);
@@ -83,6 +85,18 @@ static void intervals_cover_a_caustic(void **state) {
         assert_true(fabs(mean) < 3 * hypot(scatter, truth.standard_error.g));
     }
     graze_scene_destroy(scene);
+}
+
+static void intervals_cover_a_caustic(void **state) {
+    (void)state;
+    assert_covers_a_caustic(BALL_ON_FLOOR);
+}
+
+/* What is expected of the ball is so as well where the sun shines on it through a pane. */
+static void intervals_cover_a_caustic_below_glass(void **state) {
+    (void)state;
+    assert_covers_a_caustic(BALL_ON_FLOOR "void glass c 0 0 3 .9 .9 .9 c polygon pane 0 0 12 -50 -50 3 50 -50 3 50 50 "
+                                          "3 -50 50 3\n");
 }
 
 /* The sun in a pane whose normals a texture bends, if only by nothing, lights the floor before it, which no path finds:
@@ -262,6 +276,7 @@ static void zeros_are_exact_where_all_is_dark(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_cover_a_caustic),
+                                       cmocka_unit_test(intervals_cover_a_caustic_below_glass),
                                        cmocka_unit_test(what_bent_panes_reflect_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_panes_reflect),
                                        cmocka_unit_test(what_is_not_met_is_in_the_error),
