@@ -59,10 +59,10 @@ static shaft_span span_of_light(const hull *h, vec3 normal, vec3 point) {
     return span;
 }
 
-static shaft_span span_of_patch(const hull *h, vec3 normal, vec3 point) {
+static shaft_span span_of_patch(const geometry_patch *patch, vec3 normal, vec3 point) {
     shaft_span span = {INFINITY, -INFINITY};
     for (int i = 0; i < PATCH_CORNERS; i++) {
-        double height = vec3_dot(normal, vec3_subtract(h->patch->corners[i], point));
+        double height = vec3_dot(normal, vec3_subtract(patch->corners[i], point));
         span.low = double_min(span.low, height);
         span.high = double_max(span.high, height);
     }
@@ -82,7 +82,7 @@ static void try_plane(hull *h, vec3 point, vec3 first, vec3 second) {
         return;
     normal = vec3_scale(1 / length, normal);
     double rounding = ROUNDING * h->size;
-    shaft_span patch = span_of_patch(h, normal, point), light = span_of_light(h, normal, point);
+    shaft_span patch = span_of_patch(h->patch, normal, point), light = span_of_light(h, normal, point);
     double least = h->far ? ROUNDING : rounding;
     if (patch.low >= -rounding && light.low >= -least)
         add_plane(h, normal, point);
@@ -144,7 +144,7 @@ static void surround_disk(hull *h, vec3 center, vec3 axis, double radius) {
 
 /* The light's own plane bounds the hull: false where the patch is not wholly before it. */
 static bool add_front(hull *h, vec3 normal, vec3 center) {
-    if (!(span_of_patch(h, normal, center).low > 4 * h->near))
+    if (!(span_of_patch(h->patch, normal, center).low > 4 * h->near))
         return false;
     h->planes[h->plane_count++] = (plane){normal, center, true};
     return true;
@@ -168,7 +168,7 @@ static bool take_sphere(hull *h, const shape *light) {
     vec3 middle = vec3_scale(0.5, vec3_add(h->patch->corners[0], h->patch->corners[2]));
     vec3 center = light->sphere.center, axis = vec3_safe_normalize(vec3_subtract(middle, center));
     double radius = light->sphere.radius;
-    if (!(span_of_patch(h, axis, center).low > radius + 4 * h->near))
+    if (!(span_of_patch(h->patch, axis, center).low > radius + 4 * h->near))
         return false;
     surround_disk(h, vec3_add_scaled(center, -radius, axis), axis, radius);
     for (int i = 0; i < SHAFT_ROUND_CORNERS; i++)
@@ -219,9 +219,9 @@ static void add_ground(hull *h) {
 }
 
 /* False: nothing can be told. */
-static bool make_hull(hull *h) {
-    const geometry *g = h->geometry;
-    const geometry_patch *patch = h->patch;
+static bool make_hull(hull *h, const geometry *g, const geometry_patch *patch) {
+    h->geometry = g;
+    h->patch = patch;
     h->far = false;
     h->ball_radius = 0;
     h->plane_count = h->light_count = 0;
@@ -255,7 +255,8 @@ static shaft_place find_box(const hull *h, const shaft_node *n) {
 
 /* Patch and light are on the same side of a flat body's plane. */
 static bool plane_is_beside(const hull *h, const shape_plane *body, double tolerance, bool rival) {
-    shaft_span patch = span_of_patch(h, body->normal, body->point), light = span_of_light(h, body->normal, body->point);
+    shaft_span patch = span_of_patch(h->patch, body->normal, body->point),
+               light = span_of_light(h, body->normal, body->point);
     double margin = h->far ? 0 : rival ? 2 * h->near : -tolerance;
     return (patch.low >= -tolerance && light.low >= margin) || (patch.high <= tolerance && light.high <= -margin);
 }
@@ -287,7 +288,7 @@ static bool edge_is_outside(const hull *h, vec3 a, vec3 b) {
  * plane within the hull of where those between their corners do. */
 static bool polygon_closes(const hull *h, const shape *body) {
     vec3 normal = body->polygon.normal, center = body->polygon.center;
-    shaft_span patch = span_of_patch(h, normal, center), light = span_of_light(h, normal, center);
+    shaft_span patch = span_of_patch(h->patch, normal, center), light = span_of_light(h, normal, center);
     double margin = 4 * h->near, beyond = h->far ? 1e-9 : margin;
     bool front = patch.low > margin && light.high < -beyond, back = patch.high < -margin && light.low > beyond;
     if (!(front || back) || body->polygon.vertex_count > 4)
@@ -311,8 +312,8 @@ static geometry_visibility meet_shape(const hull *h, int surface) {
     if (!even)
         slack = -shaft_slack(h->geometry, uneven);
     /* Its front is hit in place of an earlier light's where they coincide. */
-    bool rival =
-        body->shines && surface > h->patch->light && !(flat && span_of_patch(h, own.normal, own.point).high <= 0);
+    bool rival = body->shines && surface > h->patch->light &&
+                 !(flat && span_of_patch(h->patch, own.normal, own.point).high <= 0);
     if (flat && plane_is_beside(h, &own, tolerance, rival))
         return GEOMETRY_CLEAR;
     for (int i = 0; i < h->plane_count; i++) {
@@ -365,24 +366,21 @@ static geometry_visibility look_through(const hull *h, const shaft_tree *tree) {
 }
 
 /* A flat light does not shine on what is behind it. */
-static bool is_behind_light(const hull *h) {
-    const int index = h->patch->light;
-    const shape *light = index < 0 ? NULL : &h->geometry->trees[0].shapes[index];
+static bool is_behind_light(const geometry *g, const geometry_patch *patch) {
+    const shape *light = patch->light < 0 ? NULL : &g->trees[0].shapes[patch->light];
     if (!light || !shape_is_flat(light))
         return false;
     const shape_plane front = shape_plane_of(light);
-    return span_of_patch(h, front.normal, front.point).high <= 0;
+    return span_of_patch(patch, front.normal, front.point).high <= 0;
 }
 
 geometry_visibility geometry_sight_of_patch(const geometry *g, const geometry_patch *patch) {
-    hull h;
-    h.geometry = g;
-    h.patch = patch;
     if (!g->trees[0].scene || (!g->sights.nodes && !g->copied_sights.nodes))
         return GEOMETRY_MIXED;
-    if (is_behind_light(&h))
+    if (is_behind_light(g, patch))
         return GEOMETRY_BLOCKED;
-    if (!make_hull(&h))
+    hull h;
+    if (!make_hull(&h, g, patch))
         return GEOMETRY_MIXED;
     geometry_visibility own = look_through(&h, &g->sights);
     return own == GEOMETRY_CLEAR ? look_through(&h, &g->copied_sights) : own;
