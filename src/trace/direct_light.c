@@ -233,7 +233,7 @@ void direct_light_add_below(path *p, const vertex *v, const light_choice *lights
 }
 
 rgb direct_light_reflectance(const path *p, const vertex *v, const light_sample *sample, double density,
-                             const lobe_choice *choice) {
+                             const lobe_choice *choice, bool matte) {
     reflectance r = reflectance_for_light(p, v, sample, density, choice, false);
-    return rgb_add(r.diffuse, r.glossy);
+    return matte ? rgb_add(r.diffuse, r.glossy) : r.glossy;
 }

@@ -15,7 +15,8 @@ void direct_light_add(path *, const vertex *, const light_choice *, const lobe_c
 void direct_light_add_below(path *, const vertex *, const light_choice *, const lobe_choice *);
 
 /* The reflectance functions for a light sample on the viewer's side, by the rules for its role, weighted against
- * finding the light by reflection. */
-rgb direct_light_reflectance(const path *, const vertex *, const light_sample *, double density, const lobe_choice *);
+ * finding the light by reflection. `matte`: with what is reflected diffusely. */
+rgb direct_light_reflectance(const path *, const vertex *, const light_sample *, double density, const lobe_choice *,
+                             bool matte);
 
 #endif

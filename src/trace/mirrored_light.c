@@ -23,6 +23,7 @@ typedef struct virtual_lights {
     const path_context *context;
     const vertex *vertex;
     bool ambient; /* light that counts as ambient is looked for */
+    bool panes;   /* and what panes show */
     size_t next;  /* mirror */
     int light;    /* the next one in the mirror that is seen, or: */
 } virtual_lights;
@@ -40,9 +41,11 @@ static bool paths_see(const graze_scene *scene, const scene_mirror *m) {
 
 /* Whether the mirror may show something to the vertex. What paths see it as without reflecting them, only light samples
  * see lights in: whatever the strategy. */
-static bool sees(const path_context *context, const scene_mirror *m, const vertex *v, scene_mirror_sight *sight) {
+static bool sees(const virtual_lights *all, const scene_mirror *m, scene_mirror_sight *sight) {
+    const path_context *context = all->context;
     const graze_scene *scene = context->scene;
-    if (paths_see(scene, m) && !context_samples_lights(context->settings))
+    const vertex *v = all->vertex;
+    if ((m->pane && !all->panes) || (paths_see(scene, m) && !context_samples_lights(context->settings)))
         return false;
     return scene_mirror_see(m, v->point, v->shading.n, sight) &&
            (sight->side > 0 || context->settings->back_faces_visible);
@@ -54,11 +57,16 @@ static bool is_left_to_paths(const graze_scene *scene, const scene_mirror *m) {
     return m->pane && scene->has_sky;
 }
 
-/* `bounced`: how often the path had been reflected diffusely where the vertex is. */
+/* `bounced`: how often the path had been reflected diffusely where the vertex is. What panes show lights diffuse
+ * surfaces only where a path that is reflected diffusely would find it, as in Radiance. */
 static virtual_lights virtual_lights_of(const path_context *context, const vertex *v, int bounced) {
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && !v->gloss_is_ambient;
     bool matte = !v->no_ambient && bounced < context->settings->ambient_bounces;
-    return (virtual_lights){context, v, context_samples_glows(context->settings) && (glossy || matte), 0, NEXT_MIRROR};
+    return (virtual_lights){.context = context,
+                            .vertex = v,
+                            .ambient = context_samples_glows(context->settings) && (glossy || matte),
+                            .panes = glossy || matte,
+                            .light = NEXT_MIRROR};
 }
 
 /* The next one that may be seen. */
@@ -69,7 +77,7 @@ static bool next_of(virtual_lights *all, virtual_light *l) {
         if (all->light == NEXT_MIRROR) {
             if (all->next == scene->mirror_count)
                 return false;
-            if (!sees(all->context, &scene->mirrors[all->next++], all->vertex, &l->sight))
+            if (!sees(all, &scene->mirrors[all->next++], &l->sight))
                 continue;
             all->light = 0;
             l->light = -1;
@@ -280,7 +288,8 @@ static bool add_from(path *p, const vertex *v, const virtual_light *l, double ex
     if (!paths_see(scene, m) && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
         return false;
     const lobe_choice rivals = rivals_of(p, m, &r, choice);
-    rgb reflected = rgb_multiply(direct_light_reflectance(p, v, &sample, density, &rivals), sample.radiance);
+    rgb reflectance = direct_light_reflectance(p, v, &sample, density, &rivals, !m->pane || path_bounces_left(p));
+    rgb reflected = rgb_multiply(reflectance, sample.radiance);
     if (rgb_is_black(reflected))
         return false;
     rgb found = rgb_multiply(rgb_multiply(arriving(p, v, &r, &sample), r.color), reflected);
@@ -306,7 +315,7 @@ static double brightness_of_whole(const path *p, const vertex *v, const virtual_
                     .to_mirror = vec3_dot(m->plane.normal, vec3_subtract(m->plane.point, v->point)) / slope};
     if (!(cosine > 0 && r.to_mirror > 0))
         return 0;
-    rgb value = direct_light_reflectance(p, v, &sample, 1, &no_rivals);
+    rgb value = direct_light_reflectance(p, v, &sample, 1, &no_rivals, !m->pane || path_bounces_left(p));
     rgb arriving = rgb_multiply(color_of(p, v, m, &r, sample.direction), sample.radiance);
     return rgb_brightness(rgb_multiply(p->throughput, rgb_multiply(value, arriving))) *
            fmin(cosine / sample.density, PI);

@@ -19,10 +19,10 @@ static graze_surface probe(vec3 normal, vec3 view) {
 }
 
 /* The path only looks for lights that light samples may find, too: straight on, or in a pane. */
-static void keep_straight_on(const graze_scene *scene, vertex *v) {
+static void keep_straight_on(const path *p, vertex *v) {
     graze_surface *s = &v->shading;
     s->diffuse = s->transmitted_diffuse = v->ambient = v->transmitted_ambient = rgb_gray(0);
-    if (!mirrored_light_is_in(scene, v->surface)) {
+    if (!p->last.ambient || !mirrored_light_is_in(p->context->scene, v->surface)) {
         s->specular = rgb_gray(0);
         s->specular_lobe = GRAZE_LOBE_NONE;
     }
@@ -36,7 +36,7 @@ void vertex_set_passage(const path *p, vertex *v) {
     if (p->context->scene->has_refraction)
         v->beyond = p->medium;
     if (rgb_is_black(p->throughput))
-        keep_straight_on(p->context->scene, v);
+        keep_straight_on(p, v);
 }
 
 static inline void find_ambient_above(const path *p, vertex *v, double specularity) {

@@ -240,6 +240,7 @@ static void what_mirrors_may_show_is_in_the_error(void **state) {
         graze_scene *scene = load(text);
         graze_trace_settings s = graze_trace_defaults();
         s.error = 0.05;
+        s.ambient_bounces = pane;
         enum { RAYS = 600 };
         int covered = 0, exact = 0;
         for (uint64_t i = 0; i < RAYS; i++) {
