@@ -93,7 +93,7 @@ static bool refine(estimate_half halves[ESTIMATE_HALVES], const graze_trace_sett
         bool reached = enough[0] && enough[1];
         if (!reached && !last)
             continue;
-        estimate_summarize(halves, found, answer);
+        estimate_summarize(s, halves, found, answer);
         if (last || (!is_torn(s, halves, answer) && !is_at_edge(halves, s, extras, user, answer)))
             return reached;
         enough[0] = enough[1] = false;
@@ -135,7 +135,7 @@ static void estimate_halves(estimate_half halves[ESTIMATE_HALVES], const graze_t
         estimate_half_take_until(&halves[1], s->samples / ESTIMATE_HALVES, sample, user);
         const estimate_finding found[ESTIMATE_HALVES] = {estimate_finding_of(&halves[0], &halves[1]),
                                                          estimate_finding_of(&halves[1], &halves[0])};
-        estimate_summarize(halves, found, answer);
+        estimate_summarize(s, halves, found, answer);
     } else {
         answer->converged = refine(halves, s, extras, sample, user, answer);
     }

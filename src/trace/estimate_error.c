@@ -48,6 +48,7 @@ estimate_finding estimate_finding_of(const estimate_half *h, const estimate_half
  * if in its last digits only, that of adding some thousands in a row. */
 #define KNOWN_ERROR    1e-8
 #define ROUNDING_ERROR 1e-12
+#define LEVEL          1e-9
 
 rgb estimate_with_known_error(rgb variance, rgb value, bool integrated) {
     rgb error = rgb_scale(integrated ? KNOWN_ERROR : rgb_max(variance) > 0 ? ROUNDING_ERROR : 0, value);
@@ -133,8 +134,16 @@ static rgb variance_of_known(const estimate_half halves[ESTIMATE_HALVES], const 
     return rgb_multiply(error, error);
 }
 
-void estimate_summarize(const estimate_half halves[ESTIMATE_HALVES], const estimate_finding found[ESTIMATE_HALVES],
-                        graze_answer *answer) {
+/* Whether random numbers have made no difference yet: all samples are equal but for roundings. Diffuse reflections that
+ * find nothing may still have missed what is seldom met, such as a glossy body that shows a window: about as much as
+ * the value itself in less than one of them. */
+static bool is_level(rgb variance, rgb value) {
+    const double rounding = LEVEL * rgb_max(value);
+    return rgb_max(variance) <= rounding * rounding;
+}
+
+void estimate_summarize(const graze_trace_settings *s, const estimate_half halves[ESTIMATE_HALVES],
+                        const estimate_finding found[ESTIMATE_HALVES], graze_answer *answer) {
     double share[ESTIMATE_HALVES];
     estimate_share_halves(halves, share);
     laws first = laws_of_mean(halves[0].taken), second = laws_of_mean(halves[1].taken);
@@ -153,6 +162,9 @@ void estimate_summarize(const estimate_half halves[ESTIMATE_HALVES], const estim
     estimate_add_rare(&rare, &halves[1].rare);
     double taken = (double)halves[0].taken + halves[1].taken,
            unseen = hypot(shadows, estimate_unseen_gloss(&rare, taken, taken));
+    if (s->ambient_bounces > 0 && halves[0].luck >= ESTIMATE_NOISY && brightness > 0 &&
+        is_level(variance, answer->value))
+        unseen = hypot(unseen, brightness / taken);
     if (halves[0].unmet && halves[0].unmet->count > 0) {
         double unmet = unmet_light_of(halves[0].unmet, taken);
         unseen = hypot(unseen, brightness > 0 ? fmin(unmet, brightness) : unmet);

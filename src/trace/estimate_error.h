@@ -19,7 +19,8 @@ typedef struct estimate_finding {
 estimate_finding estimate_finding_of(const estimate_half *, const estimate_half *other);
 
 /* The value, its error and the number of samples. */
-void estimate_summarize(const estimate_half[ESTIMATE_HALVES], const estimate_finding[ESTIMATE_HALVES], graze_answer *);
+void estimate_summarize(const graze_trace_settings *, const estimate_half[ESTIMATE_HALVES],
+                        const estimate_finding[ESTIMATE_HALVES], graze_answer *);
 
 /* How much each half counts: by its number of samples where that is as good as the other's; where the numbers were
  * decided to be different, as much as the other, since its number depends on what the other found. */

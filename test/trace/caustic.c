@@ -263,6 +263,31 @@ static void what_mirrors_may_show_is_in_the_error(void **state) {
     }
 }
 
+/* A glossy ball that shows a window, which few diffuse reflections meet: with as few samples as do for the rest, most
+ * answers have met nothing. */
+static void a_ball_by_the_window_is_in_the_error(void **state) {
+    (void)state;
+    graze_scene *scene = load("void plastic w 0 0 5 .6 .6 .6 0 0 void glow g 0 0 4 10 10 10 0\n"
+                              "void metal m 0 0 5 .7 .7 .7 .9 .05 m sphere ball 0 0 4 2.2 3 .5 .5\n"
+                              "w polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
+                              "w polygon ceiling 0 0 12 0 0 3 0 5 3 4 5 3 4 0 3\n"
+                              "w polygon wall 0 0 12 0 0 0 0 5 0 0 5 3 0 0 3\n"
+                              "g polygon window 0 0 12 1.5 4.99 1 2.5 4.99 1 2.5 4.99 2 1.5 4.99 2\n");
+    graze_trace_settings s = graze_trace_defaults();
+    s.ambient_bounces = 1;
+    s.error = 0.1;
+    enum { RAYS = 20, TIMES = 40 };
+    int covered = 0;
+    for (int i = 0; i < RAYS; i++) {
+        graze_ray ray = {.origin = {2, 0.5, 1.5}, .direction = {-1, 0.4 + 0.05 * i, (i * 7 % RAYS - RAYS / 2) * 0.06}};
+        const graze_answer truth = truth_of(scene, s, &ray, 1u << 13, 99);
+        covered += count_covering(scene, &s, &ray, &truth, TIMES);
+    }
+    printf("# %.1f%% covered\n", 100.0 * covered / (RAYS * TIMES));
+    assert_true(covered >= 0.85 * RAYS * TIMES);
+    graze_scene_destroy(scene);
+}
+
 static void zeros_are_exact_where_all_is_dark(void **state) {
     (void)state;
     graze_scene *scene = load(SUN "void plastic g 0 0 5 .5 .5 .5 0 0 g sphere ball 0 0 4 0 0 0 1\n");
@@ -284,6 +309,7 @@ int main(void) {
                                        cmocka_unit_test(what_mirrors_may_show_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_shines_through),
                                        cmocka_unit_test(what_clear_bodies_throw_is_in_the_error),
+                                       cmocka_unit_test(a_ball_by_the_window_is_in_the_error),
                                        cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
