@@ -2,14 +2,13 @@
 #ifndef SCENE_MIRRORS_H
 #define SCENE_MIRRORS_H
 
-#include "scene/builder.h"
+#include "scene/scene.h"
 
-/* Lights are few, and looked at one by one, up to so many. */
-enum { SCENE_MIRRORED_FEW = 8 };
+struct scene_builder;
 
 /* A mirror's front, or panes of glass in one plane, as far as coordinates tell: windows with bars, facades. */
 typedef struct scene_mirror {
-    int first, count; /* of scene->mirroring, which are its surfaces */
+    int first, count; /* of scene->mirror_surfaces, which are its surfaces */
     bool pane;        /* of glass: it mirrors on both sides, little of what meets it steeply */
     shape_plane plane;
     vec3 middle; /* of a sphere around it, in its plane */
@@ -37,7 +36,7 @@ typedef struct scene_mirror_sight {
 } scene_mirror_sight;
 
 /* Notes a surface if lights are to be sampled in it. */
-void scene_mirrors_note(scene_builder *, int surface);
+void scene_mirrors_note(struct scene_builder *, int surface);
 
 /* From what is noted, after all that may cut it and all lights, to the scene's mirrors. Of very many planes of panes
  * the largest are kept. */

@@ -36,7 +36,7 @@ static vec3 mirror_direction(const shape_plane *p, vec3 direction) {
 
 /* Whether all its surfaces show paths what they show light samples. */
 static bool paths_see(const graze_scene *scene, const scene_mirror *m) {
-    return scene->surfaces[scene->mirroring[m->first]].mirrors;
+    return scene->surfaces[scene->mirror_surfaces[m->first]].mirrors;
 }
 
 /* Whether the mirror may show something to the vertex. What paths see it as without reflecting them, only light samples
@@ -311,7 +311,7 @@ static double brightness_of_whole(const path *p, const vertex *v, const virtual_
         return 0;
     sample.direction = mirror_direction(&m->plane, sample.direction);
     double slope = vec3_dot(m->plane.normal, sample.direction), cosine = vec3_dot(sample.direction, v->shading.n);
-    reflection r = {.surface = scene->mirroring[m->first],
+    reflection r = {.surface = scene->mirror_surfaces[m->first],
                     .to_mirror = vec3_dot(m->plane.normal, vec3_subtract(m->plane.point, v->point)) / slope};
     if (!(cosine > 0 && r.to_mirror > 0))
         return 0;
@@ -327,7 +327,7 @@ static path_unmet_at *note_cut(const path *p, const vertex *v, const virtual_lig
     const graze_scene *scene = p->context->scene;
     if (p->scattered || l->light < 0 || !p->context->memory || p->context->observer)
         return NULL;
-    path_unmet_at *at = unmet_light_at(p, scene->mirroring[l->sight.mirror->first], l->light);
+    path_unmet_at *at = unmet_light_at(p, scene->mirror_surfaces[l->sight.mirror->first], l->light);
     if (at && at->expected == UNMET_LIGHT_NEW)
         at->expected = scene_mirror_cuts(scene, &l->sight, &scene->mirrored_lights[l->light])
                            ? brightness_of_whole(p, v, l) / expectation

@@ -42,8 +42,8 @@ static void panes_of_one_plane_are_one(void **state) {
         sizes[i] = m->count;
         assert_true(m->pane == (i >= 2));
         for (int k = m->first; k < m->first + m->count; k++) {
-            const shape *s = &scene->shapes[scene->mirroring[k]];
-            assert_ptr_equal(scene_mirror_of(scene, scene->mirroring[k]), m);
+            const shape *s = &scene->shapes[scene->mirror_surfaces[k]];
+            assert_ptr_equal(scene_mirror_of(scene, scene->mirror_surfaces[k]), m);
             for (uint32_t j = 0; s->kind == SHAPE_POLYGON && j < s->polygon.vertex_count; j++)
                 assert_true(vec3_length(vec3_subtract(s->polygon.vertices[j], m->middle)) <= m->radius);
         }
@@ -65,6 +65,7 @@ static void small_panes_are_left_out(void **state) {
                            1 + i * 7 % 40);
     graze_scene *scene = load(text);
     assert_int_equal(scene->mirror_count, 32);
+    assert_int_equal(scene->mirror_surface_count, 32);
     for (size_t i = 0; i < scene->surface_count; i++)
         if (scene->shapes[i].kind == SHAPE_RING)
             assert_true(scene->surfaces[i].mirrors == (scene->shapes[i].ring.r1 > 8));
