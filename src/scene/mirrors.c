@@ -246,7 +246,7 @@ double scene_mirror_shows(const scene_mirror_sight *s, const scene_mirrored_ligh
     return shown ? s->reflects * light->brightness * share : 0;
 }
 
-bool scene_mirror_cuts(const graze_scene *scene, const scene_mirror_sight *s, const scene_mirrored_light *light) {
+bool scene_mirror_shows_part(const graze_scene *scene, const scene_mirror_sight *s, const scene_mirrored_light *light) {
     const vec3 n = s->mirror->plane.normal;
     vec3 axis = light->middle;
     double sine = light->radius, cosine = light->cosine;

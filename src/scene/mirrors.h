@@ -49,7 +49,7 @@ bool scene_mirror_see(const scene_mirror *, vec3 point, vec3 normal, scene_mirro
 double scene_mirror_shows(const scene_mirror_sight *, const scene_mirrored_light *);
 
 /* Whether the mirror may show a part of the light, but not all of it: an edge of its surfaces may be there. */
-bool scene_mirror_cuts(const graze_scene *, const scene_mirror_sight *, const scene_mirrored_light *);
+bool scene_mirror_shows_part(const graze_scene *, const scene_mirror_sight *, const scene_mirrored_light *);
 
 /* The surface that the mirror is at a point in its plane; -1: there is none. */
 int scene_mirror_at(const graze_scene *, const scene_mirror *, vec3 point);

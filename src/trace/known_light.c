@@ -118,7 +118,7 @@ static bool is_plain(const path *p, const vertex *v) {
            context_samples_glows(p->context->settings);
 }
 
-bool known_light_of_all(const path *p, const vertex *v, rgb *reflected) {
+bool known_light_from_cells(const path *p, const vertex *v, rgb *reflected) {
     const graze_scene *scene = p->context->scene;
     bool seen[PATH_FEW_LIGHTS];
     int count = (int)scene->light_count;
