@@ -107,14 +107,14 @@ static uint64_t cuts_of(const graze_scene *scene, const scene_surface *s) {
 /* Lights are not sampled in what is left of mirrors and panes. */
 static void leave_mirrors_out(graze_scene *scene) {
     size_t kept = 0;
-    for (size_t i = 0; i < scene->mirroring_count; i++) {
-        int mirror = scene->mirroring[i];
+    for (size_t i = 0; i < scene->mirror_surface_count; i++) {
+        int mirror = scene->mirror_surfaces[i];
         if (cuts_of(scene, &scene->surfaces[mirror]))
             scene->surfaces[mirror].mirrors = false;
         else
-            scene->mirroring[kept++] = mirror;
+            scene->mirror_surfaces[kept++] = mirror;
     }
-    scene->mirroring_count = kept;
+    scene->mirror_surface_count = kept;
 }
 
 /* Builds the bounds of one antimatter; gives how many of them are the scene's own. */

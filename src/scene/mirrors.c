@@ -4,12 +4,15 @@
 #include <stdlib.h>
 
 #include "geometry/crossing.h"
+#include "scene/builder.h"
 
 /* Each vertex asks all mirrors which lights they show: of so many planes of panes that takes as long as the rest of a
  * path. They add little; what smaller ones show is left to luck. */
 #define MOST_PLANES 32
 /* Of more panes than this the largest are looked at, lest finding their planes takes long. */
 #define MOST_PANES 2048
+/* Lights are looked at one by one up to so many. */
+#define FEW_LIGHTS 8
 
 void scene_mirrors_note(scene_builder *b, int index) {
     graze_scene *scene = b->scene;
@@ -21,13 +24,13 @@ void scene_mirrors_note(scene_builder *b, int index) {
         scene->has_mirrors = scene->has_mirrors || mirror;
         return;
     }
-    int *grown = realloc(scene->mirroring, (scene->mirroring_count + 1) * sizeof *grown);
+    int *grown = realloc(scene->mirror_surfaces, (scene->mirror_surface_count + 1) * sizeof *grown);
     if (!grown) {
         scene_fail(b, report_out_of_memory(b->report));
         return;
     }
-    scene->mirroring = grown;
-    scene->mirroring[scene->mirroring_count++] = index;
+    scene->mirror_surfaces = grown;
+    scene->mirror_surfaces[scene->mirror_surface_count++] = index;
     scene->surfaces[index].mirrors = pane || m->alternate < 0 || m->keeps_front;
 }
 
@@ -131,6 +134,7 @@ static void find_planes(draft *drafts, size_t count) {
 
 static void keep(graze_scene *scene, const draft *drafts, size_t count) {
     size_t planes = 0;
+    scene->mirror_surface_count = 0;
     for (size_t i = 0; i < count; i++) {
         const draft *d = &drafts[i];
         bool begins = i == 0 || d->plane != d[-1].plane;
@@ -139,7 +143,7 @@ static void keep(graze_scene *scene, const draft *drafts, size_t count) {
             scene->surfaces[d->surface].mirrors = false;
             continue;
         }
-        scene->mirroring[i] = d->surface;
+        scene->mirror_surfaces[scene->mirror_surface_count++] = d->surface;
         if (begins) {
             scene->mirrors[scene->mirror_count] = d->mirror;
             scene->mirrors[scene->mirror_count++].first = (int)i;
@@ -164,7 +168,7 @@ static scene_mirrored_light bound_light(const scene_light *light) {
 }
 
 graze_status scene_mirrors_make(graze_scene *scene, const graze_report *report) {
-    size_t count = scene->mirroring_count;
+    size_t count = scene->mirror_surface_count;
     if (count == 0 || scene->light_count == 0)
         return GRAZE_OK;
     draft *drafts = malloc(count * sizeof *drafts);
@@ -174,13 +178,13 @@ graze_status scene_mirrors_make(graze_scene *scene, const graze_report *report) 
         return report_out_of_memory(report);
     }
     for (size_t i = 0; i < count; i++)
-        drafts[i] = draft_of(scene, scene->mirroring[i], (int)i);
+        drafts[i] = draft_of(scene, scene->mirror_surfaces[i], (int)i);
     count = leave_smallest_out(scene, drafts, count);
     find_planes(drafts, count);
     qsort(drafts, count, sizeof *drafts, by_plane);
     keep(scene, drafts, count);
     free(drafts);
-    if (scene->light_count > SCENE_MIRRORED_FEW)
+    if (scene->light_count > FEW_LIGHTS)
         return GRAZE_OK;
     scene->mirrored_lights = malloc(scene->light_count * sizeof *scene->mirrored_lights);
     if (!scene->mirrored_lights)
@@ -242,7 +246,7 @@ double scene_mirror_shows(const scene_mirror_sight *s, const scene_mirrored_ligh
     return shown ? s->reflects * light->brightness * share : 0;
 }
 
-bool scene_mirror_cuts(const graze_scene *scene, const scene_mirror_sight *s, const scene_mirrored_light *light) {
+bool scene_mirror_shows_part(const graze_scene *scene, const scene_mirror_sight *s, const scene_mirrored_light *light) {
     const vec3 n = s->mirror->plane.normal;
     vec3 axis = light->middle;
     double sine = light->radius, cosine = light->cosine;
@@ -261,22 +265,22 @@ bool scene_mirror_cuts(const graze_scene *scene, const scene_mirror_sight *s, co
     double reach = way * sine / lowest * SLACK;
     vec3 at = vec3_add_scaled(s->image, way, axis);
     for (int i = s->mirror->first; i < s->mirror->first + s->mirror->count; i++)
-        if (shape_flat_outline(&scene->shapes[scene->mirroring[i]], at) <= reach)
+        if (shape_flat_outline(&scene->shapes[scene->mirror_surfaces[i]], at) <= reach)
             return true;
     return false;
 }
 
 int scene_mirror_at(const graze_scene *scene, const scene_mirror *m, vec3 point) {
     for (int i = m->first; i < m->first + m->count; i++)
-        if (shape_flat_contains(&scene->shapes[scene->mirroring[i]], point))
-            return scene->mirroring[i];
+        if (shape_flat_contains(&scene->shapes[scene->mirror_surfaces[i]], point))
+            return scene->mirror_surfaces[i];
     return -1;
 }
 
 const scene_mirror *scene_mirror_of(const graze_scene *scene, int surface) {
     for (size_t i = 0; i < scene->mirror_count; i++)
         for (int k = 0; k < scene->mirrors[i].count; k++)
-            if (scene->mirroring[scene->mirrors[i].first + k] == surface)
+            if (scene->mirror_surfaces[scene->mirrors[i].first + k] == surface)
                 return &scene->mirrors[i];
     return NULL;
 }

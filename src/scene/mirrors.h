@@ -2,14 +2,13 @@
 #ifndef SCENE_MIRRORS_H
 #define SCENE_MIRRORS_H
 
-#include "scene/builder.h"
+#include "scene/scene.h"
 
-/* Lights are few, and looked at one by one, up to so many. */
-enum { SCENE_MIRRORED_FEW = 8 };
+struct scene_builder;
 
 /* A mirror's front, or panes of glass in one plane, as far as coordinates tell: windows with bars, facades. */
 typedef struct scene_mirror {
-    int first, count; /* of scene->mirroring, which are its surfaces */
+    int first, count; /* of scene->mirror_surfaces, which are its surfaces */
     bool pane;        /* of glass: it mirrors on both sides, little of what meets it steeply */
     shape_plane plane;
     vec3 middle; /* of a sphere around it, in its plane */
@@ -37,7 +36,7 @@ typedef struct scene_mirror_sight {
 } scene_mirror_sight;
 
 /* Notes a surface if lights are to be sampled in it. */
-void scene_mirrors_note(scene_builder *, int surface);
+void scene_mirrors_note(struct scene_builder *, int surface);
 
 /* From what is noted, after all that may cut it and all lights, to the scene's mirrors. Of very many planes of panes
  * the largest are kept. */
@@ -50,7 +49,7 @@ bool scene_mirror_see(const scene_mirror *, vec3 point, vec3 normal, scene_mirro
 double scene_mirror_shows(const scene_mirror_sight *, const scene_mirrored_light *);
 
 /* Whether the mirror may show a part of the light, but not all of it: an edge of its surfaces may be there. */
-bool scene_mirror_cuts(const graze_scene *, const scene_mirror_sight *, const scene_mirrored_light *);
+bool scene_mirror_shows_part(const graze_scene *, const scene_mirror_sight *, const scene_mirrored_light *);
 
 /* The surface that the mirror is at a point in its plane; -1: there is none. */
 int scene_mirror_at(const graze_scene *, const scene_mirror *, vec3 point);

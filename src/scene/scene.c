@@ -323,7 +323,7 @@ void graze_scene_destroy(graze_scene *scene) {
     }
     free(scene->parts);
     free(scene->lights);
-    free(scene->mirroring);
+    free(scene->mirror_surfaces);
     free(scene->mirrors);
     free(scene->mirrored_lights);
     free(scene->materials);

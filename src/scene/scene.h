@@ -107,7 +107,7 @@ typedef struct scene_surface {
     int material;         /* index into materials */
     int light;            /* index into lights, or -1 */
     bool no_ambient;      /* its modifier is among those whose diffuse interreflection is not computed */
-    bool mirrors;         /* flat, a `mirror` or a pane, without textures: to paths, not only to light samples */
+    bool mirrors;         /* lights are sampled in it (scene/mirrors.h) that paths see there, too */
     unsigned short cells; /* index and 1 of its cells (scene/sight_cells.h); 0: it has none */
 } scene_surface;
 
@@ -144,9 +144,9 @@ struct graze_scene {
     size_t material_count;
     material_modifiers *modifiers; /* null where no material has any */
     bool has_mirrors;              /* not faint ones: light comes by ways that no light sample finds */
-    int *mirroring;                /* mirroring_count surfaces that lights are sampled in */
-    size_t mirroring_count;
-    struct scene_mirror *mirrors; /* (scene/mirrors.h) the planes that these are in */
+    int *mirror_surfaces;          /* mirror_surface_count of them, that lights are sampled in */
+    size_t mirror_surface_count;
+    struct scene_mirror *mirrors; /* (scene/mirrors.h) which they make up */
     size_t mirror_count;
     struct scene_mirrored_light *mirrored_lights; /* where lights are few; else null */
     bool has_panes;                               /* surfaces that light goes straight through */

@@ -12,8 +12,6 @@
 /* The largest polygon has 4 to the power of the levels, the others fewer so that theirs are as large. */
 #define LEAST_LEVELS 2
 #define MOST_LEVELS  4
-/* Of more lights, some are chosen to be sampled at a point: too many cells would be found out for them. */
-#define MOST_LIGHTS 8
 
 /* What is known of one cell: this, or a geometry_visibility and 1. Threads that find it out find the same. */
 enum { UNKNOWN = 0 };
@@ -108,7 +106,7 @@ static int least_exponent(const graze_scene *scene, double *largest) {
 }
 
 graze_status sight_cells_make(graze_scene *scene, const graze_report *report) {
-    if (scene->first_copied == 0 || scene->first_copied > MOST_LIGHTS || scene->surface_count == 0)
+    if (scene->first_copied == 0 || scene->first_copied > SIGHT_CELLS_LIGHTS_MOST || scene->surface_count == 0)
         return GRAZE_OK;
     struct sight_cells *c = calloc(1, sizeof *c);
     scene->sight_cells = c;

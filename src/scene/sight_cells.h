@@ -5,6 +5,9 @@
 #include "geometry/patch_sight.h"
 #include "scene/scene.h"
 
+/* Of more lights, some are chosen to be sampled at a point: too many cells would be found out for them. */
+enum { SIGHT_CELLS_LIGHTS_MOST = 8 };
+
 /* Divides the scene's large surfaces into cells, if it has few lights. */
 graze_status sight_cells_make(graze_scene *, const graze_report *);
 void sight_cells_destroy(struct sight_cells *);

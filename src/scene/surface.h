@@ -16,7 +16,7 @@ static inline const scene_material *scene_material_at(const graze_scene *scene, 
     return scene_material_seen(scene, &scene->materials[scene_surface_at(scene, number).material]);
 }
 
-/* Whether light may go straight through the surface (shape.passes). */
+/* Whether light may go straight through the surface (geometry_passes). */
 static inline bool scene_surface_passes(const graze_scene *scene, int64_t number) {
     return number < (int64_t)scene->surface_count ? scene->shapes[number].passes
                                                   : geometry_passes(scene->geometry, number);

@@ -118,9 +118,11 @@ static bool is_plain(const path *p, const vertex *v) {
            context_samples_glows(p->context->settings);
 }
 
-bool known_light_of_all(const path *p, const vertex *v, rgb *reflected) {
+_Static_assert((int)SIGHT_CELLS_LIGHTS_MOST <= PATH_FEW_LIGHTS, "all lights of scenes with cells can be settled");
+
+bool known_light_from_cells(const path *p, const vertex *v, rgb *reflected) {
     const graze_scene *scene = p->context->scene;
-    bool seen[PATH_FEW_LIGHTS];
+    bool seen[SIGHT_CELLS_LIGHTS_MOST];
     int count = (int)scene->light_count;
     if (!is_plain(p, v))
         return false;

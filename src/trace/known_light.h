@@ -18,7 +18,7 @@ bool known_light_is_all(const path *, const vertex *, const light_choice *);
 
 /* Whether the cells of a surface tell of all lights whether they are seen, and diffuse reflection is all there is: then
  * no light is to be chosen or sampled, and this is what the vertex reflects of them for a throughput of 1. */
-bool known_light_of_all(const path *, const vertex *, rgb *reflected);
+bool known_light_from_cells(const path *, const vertex *, rgb *reflected);
 
 /* Adds that, and settles all lights. */
 void known_light_settle_all(path *, rgb reflected);

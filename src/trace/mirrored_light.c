@@ -36,7 +36,7 @@ static vec3 mirror_direction(const shape_plane *p, vec3 direction) {
 
 /* Whether all its surfaces show paths what they show light samples. */
 static bool paths_see(const graze_scene *scene, const scene_mirror *m) {
-    return scene->surfaces[scene->mirroring[m->first]].mirrors;
+    return scene->surfaces[scene->mirror_surfaces[m->first]].mirrors;
 }
 
 /* Whether the mirror may show something to the vertex. What paths see it as without reflecting them, only light samples
@@ -311,7 +311,7 @@ static double brightness_of_whole(const path *p, const vertex *v, const virtual_
         return 0;
     sample.direction = mirror_direction(&m->plane, sample.direction);
     double slope = vec3_dot(m->plane.normal, sample.direction), cosine = vec3_dot(sample.direction, v->shading.n);
-    reflection r = {.surface = scene->mirroring[m->first],
+    reflection r = {.surface = scene->mirror_surfaces[m->first],
                     .to_mirror = vec3_dot(m->plane.normal, vec3_subtract(m->plane.point, v->point)) / slope};
     if (!(cosine > 0 && r.to_mirror > 0))
         return 0;
@@ -323,13 +323,13 @@ static double brightness_of_whole(const path *p, const vertex *v, const virtual_
 
 /* Of a light that a mirror's edge may cut, and that is not yet scattered, notes what it might give: where no sample
  * finds any of it, some may yet be seen. Null: nothing is noted. */
-static path_unmet_at *note_cut(const path *p, const vertex *v, const virtual_light *l, double expectation) {
+static path_unmet_at *note_part(const path *p, const vertex *v, const virtual_light *l, double expectation) {
     const graze_scene *scene = p->context->scene;
     if (p->scattered || l->light < 0 || !p->context->memory || p->context->observer)
         return NULL;
-    path_unmet_at *at = unmet_light_at(p, scene->mirroring[l->sight.mirror->first], l->light);
+    path_unmet_at *at = unmet_light_at(p, scene->mirror_surfaces[l->sight.mirror->first], l->light);
     if (at && at->expected == UNMET_LIGHT_NEW)
-        at->expected = scene_mirror_cuts(scene, &l->sight, &scene->mirrored_lights[l->light])
+        at->expected = scene_mirror_shows_part(scene, &l->sight, &scene->mirrored_lights[l->light])
                            ? brightness_of_whole(p, v, l) / expectation
                            : 0;
     return at;
@@ -347,12 +347,12 @@ static void add_chosen(path *p, const vertex *v, virtual_lights all, const surve
             (void)next_of(&all, &other);
         const virtual_light *l = found->count > KEPT ? &other : &found->kept[i];
         double expectation = expectation_of(found, l);
-        path_unmet_at *cut = note_cut(p, v, l, expectation);
+        path_unmet_at *part = note_part(p, v, l, expectation);
         for (sum += expectation; next < sum; next++) {
             sampler_3d(p->sampler, random);
             bool met = add_from(p, v, l, expectation, random, choice);
-            if (cut)
-                cut->met = cut->met || met;
+            if (part)
+                part->met = part->met || met;
         }
     }
 }

@@ -157,7 +157,7 @@ static void decide(const path *p, gathering *here) {
     const vertex *v = &here->vertex;
     const bool nothing_between = !p->context->observer && !is_veiled(p) && (p->scattered || path_is_at_first(p));
     here->lobes = lobes_choose(p, v);
-    here->lit = nothing_between && asks_for_lights(p) && known_light_of_all(p, v, &here->direct);
+    here->lit = nothing_between && asks_for_lights(p) && known_light_from_cells(p, v, &here->direct);
     if (here->lit)
         light_choice_none(&here->lights);
     else

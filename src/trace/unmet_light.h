@@ -10,9 +10,11 @@
  * them without samples must have been added. */
 void unmet_light_expect(path *, const gathering *);
 
-/* What is noted of a light in a mirror, where the path is, or with negative numbers of those in none; of what is noted
- * there first, only that it is new. Null: there is no room. */
+/* What is expected where nothing has been noted yet: for the caller to replace. */
 #define UNMET_LIGHT_NEW (-1)
+
+/* What is noted, where the path is, of a light in a mirror; or, by negative numbers, of all those in none. Null: there
+ * is no room. */
 path_unmet_at *unmet_light_at(const path *, int surface, int light);
 
 /* Once the path, or its branch, has ended: takes whether it has met any of that. */

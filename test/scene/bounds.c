@@ -70,9 +70,7 @@ static void of_each_material(void **state) {
                              "fog instance l 5 %s -t 20 0 0 0 0 void instance n 5 %s -t 30 0 0 0 0 "
                              "void instance q 5 %s -t 50 0 0 0 0 ",
                    inner_file.name, outer_file.name, outer_file.name, inner_file.name);
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(text);
     assert_bodies(scene, "m", m, 2);
     assert_bodies(scene, "w", w, 3);
     assert_bodies(scene, "fog", fog, 8);

@@ -77,13 +77,6 @@ static void write_mesh(const char *name, const char *type, int material, int nor
     write_file(name, b.bytes, b.length);
 }
 
-static graze_scene *load(const char *text) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
-    return scene;
-}
-
 static void assert_refused(const char *text, const char *reason) {
     graze_scene *scene = scene_from_text(text);
     if (scene || !strstr(messages, reason))
@@ -106,7 +99,7 @@ static void modifiers_of_instances_replace_those_within(void **state) {
                  "void plastic red 0 0 5 .9 .1 .1 0 0\nvoid instance a 1 inner.oct 0 0\n"
                  "red instance b 5 inner.oct -t 3 0 0 0 0\n",
                  3);
-    graze_scene *scene = load(BASE "void instance x 1 outer.oct 0 0\ngray instance y 5 outer.oct -t 0 5 0 0 0\n");
+    graze_scene *scene = load_scene(BASE "void instance x 1 outer.oct 0 0\ngray instance y 5 outer.oct -t 0 5 0 0 0\n");
     const struct {
         double x, y;
         const char *surface, *modifier;
@@ -131,7 +124,7 @@ static void a_surface_across_its_orientation_is_warned_about_in_copies(void **st
                  "void metal2 m 4 0 0 1 . 0 6 1 1 1 .5 .1 .2\n"
                  "m ring r 0 0 8 0 0 0 0 0 1 0 1 m ring s 0 0 8 0 0 0 0 1 0 0 1\n",
                  3);
-    graze_scene *scene = load(BASE "void instance x 1 across.oct 0 0\n");
+    graze_scene *scene = load_scene(BASE "void instance x 1 across.oct 0 0\n");
     assert_non_null(strstr(messages, "ring r: lies across"));
     assert_null(strstr(messages, "ring s"));
     graze_scene_destroy(scene);
@@ -143,7 +136,7 @@ static void lights_in_copies_are_only_seen(void **state) {
                  "void light l 0 0 3 2 2 2\nl sphere a 0 0 4 0 0 0 1\nl sphere b 0 0 4 3 0 0 1\n"
                  "void glow g 0 0 4 1 1 1 0\ng sphere c 0 0 4 6 0 0 1\nl source s 0 0 4 0 0 1 1\n",
                  6);
-    graze_scene *scene = load(BASE "void instance x 1 lamp.oct 0 0\n");
+    graze_scene *scene = load_scene(BASE "void instance x 1 lamp.oct 0 0\n");
     assert_int_equal(scene->light_count, 1); /* the glow */
     assert_int_equal(scene->seen_light_count, 2);
     assert_false(scene->meets_glows);
@@ -161,7 +154,7 @@ static void lights_in_copies_are_only_seen(void **state) {
     assert_null(strstr(messages, "instance x: shines"));
     write_mesh("lamp.rtm", "plastic", 0, 0);
     assert_refused(BASE "void light l 0 0 3 1 1 1\nl mesh x 1 lamp.rtm 0 0\n", "mesh x: meshes cannot be lights");
-    graze_scene_destroy(load(BASE "void glow l 0 0 4 1 1 1 0\nl mesh x 1 lamp.rtm 0 0\n"));
+    graze_scene_destroy(load_scene(BASE "void glow l 0 0 4 1 1 1 0\nl mesh x 1 lamp.rtm 0 0\n"));
 }
 
 /* Each copy of a glow that lights what is about is a light by itself, before the sources, in the order of numbers. */
@@ -177,8 +170,8 @@ static void glows_in_copies_are_lights_where_they_stand(void **state) {
                  "void plastic q 0 0 5 .5 .5 .5 0 0\nq instance y 5 inner.oct -t 0 1 0 0 0\n",
                  5);
     graze_scene *scene =
-        load(BASE "void glow own 0 0 4 3 3 3 0\nown sphere o 0 0 4 0 0 20 1\nown source s 0 0 4 0 0 1 1\n"
-                  "own instance k 5 inner.oct -t 0 10 0 0 0\nvoid instance l 6 outer.oct -mx -t 0 20 0 0 0\n");
+        load_scene(BASE "void glow own 0 0 4 3 3 3 0\nown sphere o 0 0 4 0 0 20 1\nown source s 0 0 4 0 0 1 1\n"
+                        "own instance k 5 inner.oct -t 0 10 0 0 0\nvoid instance l 6 outer.oct -mx -t 0 20 0 0 0\n");
     const struct {
         double x, y;
         int light; /* where it is to be found: behind the scene's own and the source */
@@ -210,9 +203,10 @@ static void only_seen_beside_glows_in_copies(void **state) {
     (void)state;
     write_octree("thing.oct", "thing.rad", "void plastic p 0 0 5 .5 .5 .5 0 0\np sphere a 0 0 4 0 0 0 1\n", 2);
     write_octree("glow.oct", "glow.rad", "void glow g 0 0 4 1 1 1 0\ng sphere b 0 0 4 0 0 0 1\n", 2);
-    graze_scene *scene = load("void glow seen 0 0 4 5 5 5 -1\nseen instance x 1 thing.oct 0 0\n"
-                              "void glow too 0 0 4 7 7 7 -1\ntoo instance w 5 thing.oct -t -3 0 0 0 0\n"
-                              "void instance y 5 glow.oct -t 3 0 0 0 0\nvoid instance z 5 glow.oct -t 6 0 0 0 0\n");
+    graze_scene *scene =
+        load_scene("void glow seen 0 0 4 5 5 5 -1\nseen instance x 1 thing.oct 0 0\n"
+                   "void glow too 0 0 4 7 7 7 -1\ntoo instance w 5 thing.oct -t -3 0 0 0 0\n"
+                   "void instance y 5 glow.oct -t 3 0 0 0 0\nvoid instance z 5 glow.oct -t 6 0 0 0 0\n");
     assert_int_equal(scene->light_count, 2);
     for (int i = 0; i < 2; i++) {
         int light = scene_surface_at(scene, hit(scene, vec3_make(-3 * i, 0, -5), vec3_make(0, 0, 1))).light;
@@ -244,7 +238,7 @@ static void too_many_glows_in_copies_are_none(void **state) {
     for (int replaced = 0; replaced < 2; replaced++) {
         snprintf(text, sizeof text, BASE "void glow h 0 0 4 1 1 1 0\n%s instance x 1 level%d.oct 0 0\n",
                  replaced ? "h" : "void", LEVELS);
-        graze_scene *scene = load(text);
+        graze_scene *scene = load_scene(text);
         assert_int_equal(scene->light_count, 0);
         assert_true(scene->meets_glows);
         graze_scene_destroy(scene);
@@ -255,7 +249,7 @@ static void meshes_need_materials(void **state) {
     (void)state;
     write_mesh("bare.rtm", "plastic", -1, 0);
     assert_refused(BASE "void mesh x 1 bare.rtm 0 0\n", "mesh x: its modifier is void, but \"");
-    graze_scene *scene = load(BASE "gray mesh x 1 bare.rtm 0 0\n");
+    graze_scene *scene = load_scene(BASE "gray mesh x 1 bare.rtm 0 0\n");
     scene_surface s = scene_surface_at(scene, hit(scene, vec3_make(.2, .2, -1), vec3_make(0, 0, 1)));
     assert_string_equal(scene_name(scene, s.primitive), "x");
     graze_scene_destroy(scene);
@@ -264,7 +258,7 @@ static void meshes_need_materials(void **state) {
 static void normals_of_meshes_turn_with_them(void **state) {
     (void)state;
     write_mesh("smooth.rtm", "plastic", 0, 8 | 16 | 2); /* (0, -1, 0) */
-    graze_scene *scene = load(BASE "void mesh x 10 smooth.rtm -mx -rz 90 -s 3 -t 0 0 1 0 0\n");
+    graze_scene *scene = load_scene(BASE "void mesh x 10 smooth.rtm -mx -rz 90 -s 3 -t 0 0 1 0 0\n");
     /* x of the triangle goes to -y of the scene, y to -x */
     int64_t number = hit(scene, vec3_make(-.5, -.5, -1), vec3_make(0, 0, 1));
     assert_true(number >= 1);
@@ -280,7 +274,7 @@ static void normals_of_meshes_turn_with_them(void **state) {
 }
 
 static uint64_t fingerprint(const char *text) {
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     uint64_t f = scene_fingerprint(scene);
     graze_scene_destroy(scene);
     return f;

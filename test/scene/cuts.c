@@ -22,9 +22,7 @@ static graze_scene *row_of_balls(void) {
                                    "%s sphere b%d 0 0 4 %d 0 0 .8\nhole sphere h%d 0 0 4 %d.2 0 .1 .4\n"
                                    "gap sphere g%d 0 0 4 %d.4 .1 0 .3\n",
                                    i % 3 ? "gray" : "red", i, i, i, i, i, i);
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(text);
     return scene;
 }
 

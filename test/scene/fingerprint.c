@@ -17,9 +17,7 @@ static uint64_t fingerprint_with(const char *scene_text, const char *file, const
     assert_non_null(out);
     assert_int_equal(fwrite(text, 1, length, out), length);
     assert_int_equal(fclose(out), 0);
-    graze_scene *scene = scene_from_text(scene_text);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(scene_text);
     uint64_t f = scene_fingerprint(scene);
     graze_scene_destroy(scene);
     return f;

@@ -47,13 +47,6 @@ static const char all_kinds[] = "void light lamp 0 0 3 10 20 5\n"
                                 "window source sky 0 0 4 0 0 1 180\n"
                                 "window source all 0 0 4 0 0 1 360\n";
 
-static graze_scene *load(const char *text) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
-    return scene;
-}
-
 /* `count` lamps of the same kind, 2 cm wide, spread over a ceiling, every third a sphere below it; and two sources. */
 static graze_scene *load_many(int count) {
     size_t size = 100 * (size_t)count + 400;
@@ -70,7 +63,7 @@ static graze_scene *load_many(int count) {
                 : snprintf(text + length, size - (size_t)length,
                            "lamp polygon p 0 0 9 %.3f %.3f 3 %.3f %.3f 3 %.3f %.3f 3\n", x, y, x, y + .02, x + .02, y);
     }
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     free(text);
     return scene;
 }
@@ -161,7 +154,7 @@ static void assert_expectations_are_those_of_draws(const graze_scene *scene, int
 
 static void few_lights_are_drawn_as_said(void **state) {
     (void)state;
-    graze_scene *scene = load(all_kinds);
+    graze_scene *scene = load_scene(all_kinds);
     assert_int_equal(scene->light_tree.group_count, 1);
     assert_expectations_are_those_of_draws(scene, 100);
     graze_scene_destroy(scene);
@@ -217,7 +210,7 @@ static double contribution(const graze_scene *scene, const light_receiver *recei
 
 static void nothing_that_shines_is_left_out(void **state) {
     (void)state;
-    graze_scene *scene = load(all_kinds);
+    graze_scene *scene = load_scene(all_kinds);
     graze_surface surface;
     light_choice choice;
     state_of_random = 3;
@@ -271,7 +264,7 @@ static void small_lights_are_chosen_by_what_they_add(void **state) {
 /* Large and near lights are drawn no more than ten times too seldom. */
 static void no_light_is_drawn_much_too_seldom(void **state) {
     (void)state;
-    graze_scene *scene = load(all_kinds);
+    graze_scene *scene = load_scene(all_kinds);
     graze_surface surface;
     light_choice choice;
     state_of_random = 6;
@@ -294,11 +287,12 @@ static void no_light_is_drawn_much_too_seldom(void **state) {
 /* Every surface point sees the whole of a glow only by the rules for it. */
 static void unwanted_lights_are_not_drawn(void **state) {
     (void)state;
-    graze_scene *scene = load("void glow window 0 0 4 1 1 1 0\nwindow sphere a 0 0 4 0 0 3 1\n"
-                              "void glow picture 0 0 4 1 1 1 -1\npicture sphere b 0 0 4 3 0 3 1\n"
-                              "void light lamp 0 0 3 1 1 1\nlamp sphere c 0 0 4 0 3 3 1\nlamp sphere d 0 0 4 0 3 -9 1\n"
-                              "lamp ring e 0 0 8 1 1 5 0 0 1 0 1\n"
-                              "void spotlight spot 0 0 7 1 1 1 20 0 0 -1\nspot ring f 0 0 8 9 0 5 0 0 -1 0 1\n");
+    graze_scene *scene =
+        load_scene("void glow window 0 0 4 1 1 1 0\nwindow sphere a 0 0 4 0 0 3 1\n"
+                   "void glow picture 0 0 4 1 1 1 -1\npicture sphere b 0 0 4 3 0 3 1\n"
+                   "void light lamp 0 0 3 1 1 1\nlamp sphere c 0 0 4 0 3 3 1\nlamp sphere d 0 0 4 0 3 -9 1\n"
+                   "lamp ring e 0 0 8 1 1 5 0 0 1 0 1\n"
+                   "void spotlight spot 0 0 7 1 1 1 20 0 0 -1\nspot ring f 0 0 8 9 0 5 0 0 -1 0 1\n");
     graze_surface surface;
     light_choice choice;
     light_receiver receiver = receiver_at(&surface, (vec3){0, 0, 0}, (vec3){0, 0, 1}, (vec3){0, .6, .8});
@@ -318,10 +312,10 @@ static void unwanted_lights_are_not_drawn(void **state) {
 /* Numbers as different as they may be, in one scene; points in lights, and far away. */
 static void extreme_numbers_do_no_harm(void **state) {
     (void)state;
-    graze_scene *scene = load("void light bright 0 0 3 1e100 1e100 1e100\nvoid light faint 0 0 3 1e-60 0 0\n"
-                              "bright sphere a 0 0 4 0 0 3 2e-6\nfaint sphere b 0 0 4 1e6 0 3 1e5\n"
-                              "faint polygon c 0 0 9 0 0 1 1e-7 0 1 0 1e-7 1\nbright source d 0 0 4 0 0 1 1e-6\n"
-                              "faint polygon e 0 0 9 0 0 -1e8 1e9 0 -1e8 0 1e9 -1e8\n");
+    graze_scene *scene = load_scene("void light bright 0 0 3 1e100 1e100 1e100\nvoid light faint 0 0 3 1e-60 0 0\n"
+                                    "bright sphere a 0 0 4 0 0 3 2e-6\nfaint sphere b 0 0 4 1e6 0 3 1e5\n"
+                                    "faint polygon c 0 0 9 0 0 1 1e-7 0 1 0 1e-7 1\nbright source d 0 0 4 0 0 1 1e-6\n"
+                                    "faint polygon e 0 0 9 0 0 -1e8 1e9 0 -1e8 0 1e9 -1e8\n");
     const vec3 points[] = {{0, 0, 0},    {0, 0, 3},           {1e6, 0, 3},
                            {0, 0, 1},    {1e-8, 1e-8, 1},     {1e100, 1e100, -1e100},
                            {0, 0, -1e8}, {-1e-300, 1e18, 1e9}};
@@ -382,7 +376,7 @@ static void check_all_processors(graze_scene *scene) {
 
 static void all_processors_give_the_same_bits(void **state) {
     (void)state;
-    check_all_processors(load(all_kinds));
+    check_all_processors(load_scene(all_kinds));
     check_all_processors(load_many(100));
     check_all_processors(load_many(700));
 }

@@ -164,10 +164,10 @@ static void mirrors_that_are_cut_are_not_sampled(void **state) {
         "void mirror cut 0 0 3 1 1 1 void mirror whole 0 0 3 1 1 1 void antimatter a 2 void cut 0 0 "
         "cut ring r 0 0 8 0 0 0 0 0 1 0 1 whole ring s 0 0 8 3 0 0 0 0 1 0 1 a sphere t 0 0 4 0 0 0 .5");
     assert_non_null(scene);
-    assert_int_equal(scene->mirroring_count, 1);
-    assert_string_equal(scene->primitives[scene->surfaces[scene->mirroring[0]].primitive].id, "s");
+    assert_int_equal(scene->mirror_surface_count, 1);
+    assert_string_equal(scene->primitives[scene->surfaces[scene->mirror_surfaces[0]].primitive].id, "s");
     for (size_t i = 0; i < scene->surface_count; i++)
-        assert_true(scene->surfaces[i].mirrors == ((int)i == scene->mirroring[0]));
+        assert_true(scene->surfaces[i].mirrors == ((int)i == scene->mirror_surfaces[0]));
     graze_scene_destroy(scene);
 }
 

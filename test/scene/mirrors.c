@@ -13,28 +13,21 @@
 #include "support/dice.h"
 #include "support/scene_text.h"
 
-static graze_scene *load(const char *text) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
-    return scene;
-}
-
 /* A window of four panes, one of them turned and one nearly where its plane is; another pane that is parallel to it,
  * and one across; and two mirrors in one plane, which stay two. */
 static void panes_of_one_plane_are_one(void **state) {
     (void)state;
-    graze_scene *scene = load("void glass g 0 0 3 .9 .9 .9\nvoid mirror m 0 0 3 .9 .9 .9\n"
-                              "void light l 0 0 3 1 1 1\nl sphere lamp 0 0 4 9 9 9 1\n"
-                              "g polygon a 0 0 12 0 0 0 1 0 0 1 0 1 0 0 1\n"
-                              "m polygon e 0 0 9 0 0 5 1 0 5 1 1 5\n"
-                              "g polygon b 0 0 12 1.1 0 1 2 0 1 2 0 0 1.1 0 0\n"
-                              "m polygon f 0 0 9 2 0 5 3 0 5 3 1 5\n"
-                              "g polygon h 0 0 12 0 .02 0 1 .02 0 1 .02 1 0 .02 1\n"
-                              "g ring c 0 0 8 .5 0 2 0 1 0 0 .5\n"
-                              "g polygon d 0 0 9 1.1 1e-6 1.1 2 0 1.1 2 0 2.1\n"
-                              "g polygon i 0 0 9 0 0 0 0 1 0 0 0 3\n"
-                              "g sphere s 0 0 4 5 5 5 1\n");
+    graze_scene *scene = load_scene("void glass g 0 0 3 .9 .9 .9\nvoid mirror m 0 0 3 .9 .9 .9\n"
+                                    "void light l 0 0 3 1 1 1\nl sphere lamp 0 0 4 9 9 9 1\n"
+                                    "g polygon a 0 0 12 0 0 0 1 0 0 1 0 1 0 0 1\n"
+                                    "m polygon e 0 0 9 0 0 5 1 0 5 1 1 5\n"
+                                    "g polygon b 0 0 12 1.1 0 1 2 0 1 2 0 0 1.1 0 0\n"
+                                    "m polygon f 0 0 9 2 0 5 3 0 5 3 1 5\n"
+                                    "g polygon h 0 0 12 0 .02 0 1 .02 0 1 .02 1 0 .02 1\n"
+                                    "g ring c 0 0 8 .5 0 2 0 1 0 0 .5\n"
+                                    "g polygon d 0 0 9 1.1 1e-6 1.1 2 0 1.1 2 0 2.1\n"
+                                    "g polygon i 0 0 9 0 0 0 0 1 0 0 0 3\n"
+                                    "g sphere s 0 0 4 5 5 5 1\n");
     assert_int_equal(scene->mirror_count, 5);
     int sizes[5];
     for (size_t i = 0; i < scene->mirror_count; i++) {
@@ -42,8 +35,8 @@ static void panes_of_one_plane_are_one(void **state) {
         sizes[i] = m->count;
         assert_true(m->pane == (i >= 2));
         for (int k = m->first; k < m->first + m->count; k++) {
-            const shape *s = &scene->shapes[scene->mirroring[k]];
-            assert_ptr_equal(scene_mirror_of(scene, scene->mirroring[k]), m);
+            const shape *s = &scene->shapes[scene->mirror_surfaces[k]];
+            assert_ptr_equal(scene_mirror_of(scene, scene->mirror_surfaces[k]), m);
             for (uint32_t j = 0; s->kind == SHAPE_POLYGON && j < s->polygon.vertex_count; j++)
                 assert_true(vec3_length(vec3_subtract(s->polygon.vertices[j], m->middle)) <= m->radius);
         }
@@ -63,8 +56,9 @@ static void small_panes_are_left_out(void **state) {
     for (int i = 0; i < 40; i++)
         length += snprintf(text + length, sizeof text - (size_t)length, "g ring r%d 0 0 8 0 0 %d 0 0 1 0 %d\n", i, i,
                            1 + i * 7 % 40);
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     assert_int_equal(scene->mirror_count, 32);
+    assert_int_equal(scene->mirror_surface_count, 32);
     for (size_t i = 0; i < scene->surface_count; i++)
         if (scene->shapes[i].kind == SHAPE_RING)
             assert_true(scene->surfaces[i].mirrors == (scene->shapes[i].ring.r1 > 8));
@@ -74,14 +68,14 @@ static void small_panes_are_left_out(void **state) {
 /* Points of lights that a point sees in mirrors are in lights that these may show to it. */
 static void what_is_seen_may_be_shown(void **state) {
     (void)state;
-    graze_scene *scene = load("void glass g 0 0 3 .9 .9 .9\nvoid mirror m 0 0 3 .9 .9 .9\n"
-                              "void light l 0 0 3 1 1 1\nvoid glow s 0 0 4 1 1 1 0\n"
-                              "g polygon a 0 0 12 0 0 0 1 0 0 1 0 1 0 0 1\ng polygon b 0 0 9 1 0 1 2 0 1 2 0 2\n"
-                              "m ring c 0 0 8 0 1 0 0 0 1 .2 .8\nm polygon d 0 0 9 -1 -1 -1 -1 1 -1 -1 0 1\n"
-                              "l sphere e 0 0 4 .5 .5 .7 .3\nl polygon f 0 0 12 1 1 2 1 2 2 2 2 2 2 1 2\n"
-                              "l ring h 0 0 8 -.5 0 .5 1 0 .5 .1 .4\nl cylinder i 0 0 7 0 -1 1 .5 -1 1.5 .1\n"
-                              "l source j 0 0 4 1 1 1 .5\ns source k 0 0 4 1 0 1 60\ns source n 0 0 4 0 0 1 180\n"
-                              "s source o 0 0 4 0 0 1 300\n");
+    graze_scene *scene = load_scene("void glass g 0 0 3 .9 .9 .9\nvoid mirror m 0 0 3 .9 .9 .9\n"
+                                    "void light l 0 0 3 1 1 1\nvoid glow s 0 0 4 1 1 1 0\n"
+                                    "g polygon a 0 0 12 0 0 0 1 0 0 1 0 1 0 0 1\ng polygon b 0 0 9 1 0 1 2 0 1 2 0 2\n"
+                                    "m ring c 0 0 8 0 1 0 0 0 1 .2 .8\nm polygon d 0 0 9 -1 -1 -1 -1 1 -1 -1 0 1\n"
+                                    "l sphere e 0 0 4 .5 .5 .7 .3\nl polygon f 0 0 12 1 1 2 1 2 2 2 2 2 2 1 2\n"
+                                    "l ring h 0 0 8 -.5 0 .5 1 0 .5 .1 .4\nl cylinder i 0 0 7 0 -1 1 .5 -1 1.5 .1\n"
+                                    "l source j 0 0 4 1 1 1 .5\ns source k 0 0 4 1 0 1 60\ns source n 0 0 4 0 0 1 180\n"
+                                    "s source o 0 0 4 0 0 1 300\n");
     assert_non_null(scene->mirrored_lights);
     dice d = {7};
     int seen = 0, never = 0, asked = 0;

@@ -1,4 +1,4 @@
-/* Scenes written down in a test. */
+/* Scenes written down in a test. Include after cmocka.h. */
 #ifndef TEST_SUPPORT_SCENE_TEXT_H
 #define TEST_SUPPORT_SCENE_TEXT_H
 
@@ -19,6 +19,14 @@ static inline graze_scene *scene_from_text_with(const char *text, const graze_sc
 
 static inline graze_scene *scene_from_text(const char *text) {
     return scene_from_text_with(text, NULL);
+}
+
+/* The same of one that must load: else the test fails, with what was reported. */
+static inline graze_scene *load_scene(const char *text) {
+    graze_scene *scene = scene_from_text(text);
+    if (!scene)
+        fail_msg("%s: %s", text, messages);
+    return scene;
 }
 
 #endif

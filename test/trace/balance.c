@@ -39,9 +39,7 @@ static double absorbed(const graze_scene *scene, const graze_trace_settings *s, 
 }
 
 static void assert_balance(const char *text, const taker *takers, int count, double emitted) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(text);
     for (int strategy = 0; strategy < 3; strategy++) {
         graze_trace_settings s = graze_trace_defaults();
         s.strategy = (graze_strategy)strategy;

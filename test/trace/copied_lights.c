@@ -14,9 +14,7 @@
 #include "support/scene_text.h"
 
 static graze_rgb seen(const char *text, vec3 origin, vec3 direction) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(text);
     const graze_trace_settings settings = graze_trace_defaults();
     const graze_ray ray = {.origin = origin, .direction = direction};
     graze_answer found;

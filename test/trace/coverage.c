@@ -201,9 +201,7 @@ static void add(tally *sum, const tally *t) {
 }
 
 static void trace_family(const family *f, tally tallies[ERRORS]) {
-    graze_scene *scene = scene_from_text(f->text);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(f->text);
     graze_trace_settings s = graze_trace_defaults();
     s.quantity = f->quantity;
     s.strategy = f->strategy;

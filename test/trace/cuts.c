@@ -12,20 +12,13 @@
 #include "graze/trace.h"
 #include "support/scene_text.h"
 
-static graze_scene *load(const char *text) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s: %s", text, messages);
-    return scene;
-}
-
 static const char *const bodies =
     "void plastic p 0 0 5 .5 .5 .5 0 0 void plastic q 0 0 5 .2 .3 .4 0 0 p sphere ball 0 0 4 0 0 0 1 "
     "p polygon wall 0 0 12 -3 3 -3 3 3 -3 3 3 3 -3 3 3 ";
 
 /* What a ray along y meets. */
 static void assert_met_in(const char *text, double x, double distance, const char *surface, double normal_y) {
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     graze_trace_settings settings = graze_trace_defaults();
     const graze_ray ray = {.origin = {x, -5, 0}, .direction = {0, 1, 0}};
     graze_hit hit;
@@ -103,7 +96,7 @@ static void light_comes_through_holes(void **state) {
                  "w polygon floor 0 0 12 -1 -1 0 1 -1 0 1 1 0 -1 1 0 l sphere lamp 0 0 4 .3 .4 2 .3 "
                  "void glow g 0 0 4 1 2 3 0 g source sky 0 0 4 0 0 1 180 %s",
                  scenes[i]);
-        graze_scene *scene = load(text);
+        graze_scene *scene = load_scene(text);
         graze_trace_settings settings = graze_trace_defaults();
         settings.ambient_bounces = 2;
         settings.samples = 20000;

@@ -13,13 +13,6 @@
 #include "graze/trace.h"
 #include "support/scene_text.h"
 
-static graze_scene *load(const char *text) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
-    return scene;
-}
-
 /* Of errors that 16 replicates tell, one in 10,000 answers is farther off. */
 #define ERRORS 5.2
 
@@ -56,7 +49,7 @@ static void lamp_in_a_grey_ball(void **state) {
                  "void plastic g 0 0 5 %.17g %.17g %.17g 0 0 g bubble room 0 0 4 5 1 2 3\n"
                  "void light l 0 0 3 4 4 4 l sphere lamp 0 0 4 5 1 2 1\n",
                  albedos[i], albedos[i], albedos[i]);
-        graze_scene *scene = load(text);
+        graze_scene *scene = load_scene(text);
         const graze_ray ray = {.origin = {5, 1, 4}, .direction = {0.7, 0.2, -0.1}};
         double back = albedos[i] * (1 - part), truth = 4 * albedos[i] * part / (1 - back);
         for (int strategy = 0; strategy < 3; strategy++)
@@ -84,7 +77,7 @@ static void white_things_in_a_white_world(void **state) {
                        "d cup cup 0 0 8 0 0 0 0 0 1 .2 .5\nm tube tube 0 0 7 1 1 .2 1 .5 1.2 .3\n"
                        "d sphere ball 0 0 4 -1 1 .5 .5\nm sphere globe 0 0 4 1 -1 .5 .5\n"
                        "d ring ring 0 0 8 -1 -1 .7 1 2 3 .2 .6\n";
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     for (int strategy = 0; strategy < 3; strategy++)
         for (int i = 0; i < 40; i++) {
             double angle = 2 * PI * i / 40;
@@ -150,7 +143,7 @@ static void clear_things_in_a_white_world(void **state) {
                        "t polygon sheet 0 0 12 -1 8 0 1 8 0 1 10 0 -1 10 0\nm sphere milk 0 0 4 0 -9 0 1\n";
     const vec3 targets[] = {{0, 0, 0}, {9, 0, 0},  {-9, 0, 0}, {0, 9, 0},  {0, -9, 0},
                             {0, 0, 9}, {0, 0, -9}, {9, 9, 0},  {-9, 9, 0}, {9, -9, 0}};
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     for (int strategy = 0; strategy < 3; strategy++)
         for (int i = 0; i < 80; i++) {
             vec3 target = targets[i % 10], away = {cos(i * 0.7), sin(i * 0.7), 0.1 + 0.1 * (i % 9)};
@@ -174,7 +167,7 @@ static void a_floor_lit_through_panes(void **state) {
                              "void glass p 0 0 4 .8 .9 1 1.4 p polygon a 0 0 12 -9 -9 1 9 -9 1 9 9 1 -9 9 1\n"
                              "void trans t 0 0 7 .9 .8 .7 .03 0 .5 1\n"
                              "t polygon b 0 0 12 -9 -9 2 9 -9 2 9 9 2 -9 9 2\n";
-    graze_scene *scene = load(scene_text);
+    graze_scene *scene = load_scene(scene_text);
     const graze_ray ray = {.origin = {0, 0, 0.5}, .direction = {0, 0, -1}};
     const graze_material glass = {.kind = GRAZE_GLASS, .color = {0.8, 0.9, 1}, .refraction = 1.4};
     const graze_material trans = {.kind = GRAZE_TRANS,
@@ -206,7 +199,7 @@ static void a_lamp_and_its_image(void **state) {
                  "void mirror m 0 0 3 .9 .8 .7 m polygon wall 0 0 12 -900 1 -900 900 1 -900 900 1 900 -900 1 900\n"
                  "void light l 0 0 3 10 10 10 l sphere lamp 0 0 4 .5 0 1 .3\n",
                  floors[shiny]);
-        graze_scene *scene = load(text);
+        graze_scene *scene = load_scene(text);
         const graze_ray ray = {.origin = {-1, -1.5, 0.8}, .direction = {1, 1.5, -0.8}};
         double direct = pow(1.25, -1.5), image = 0.8 * pow(0.25 + 4 + 1, -1.5);
         double truth = 0.5 * 10 * 0.09 * (direct + image);
@@ -257,7 +250,7 @@ static void a_sun_in_a_pane(void **state) {
                  "void glass g 0 0 3 .9 .9 .9\ng polygon a 0 0 %s\ng polygon b 0 0 12 -1 2 0 0 2 0 0 2 3 -1 2 3\n"
                  "void light l 0 0 3 1e6 1e6 1e6\nl source sun 0 0 4 0 -3 4 .5\n%s",
                  turned, way == 2 ? "g ring c 0 0 8 0 1.9 1.2 0 1 0 0 1\n" : "");
-        graze_scene *scene = load(text);
+        graze_scene *scene = load_scene(text);
         /* The floor at y = 1 sees the sun at the height 4/3 of the pane. */
         const graze_ray ray = {.origin = {way == 3 ? -0.2 : 0.2, 1, 0.5}, .direction = {0, 0, -1}};
         double image = reflected_by_pane(0.6, 0.9), clear = 1;
@@ -287,8 +280,8 @@ static void a_sun_in_a_pane(void **state) {
 /* What is inside a clear body is seen through so much of it. */
 static void a_lamp_in_a_dark_ball(void **state) {
     (void)state;
-    graze_scene *scene = load("void dielectric d 0 0 5 .5 .25 1 1.5 0 d sphere ball 0 0 4 1 2 3 2\n"
-                              "void light l 0 0 3 4 4 4 l sphere lamp 0 0 4 1 2 3 .5\n");
+    graze_scene *scene = load_scene("void dielectric d 0 0 5 .5 .25 1 1.5 0 d sphere ball 0 0 4 1 2 3 2\n"
+                                    "void light l 0 0 3 4 4 4 l sphere lamp 0 0 4 1 2 3 .5\n");
     const graze_ray ray = {.origin = {1, 2, 9}, .direction = {0, 0, -1}};
     graze_trace_settings s = graze_trace_defaults();
     s.samples = 65536;
@@ -310,7 +303,7 @@ static void a_sky_below_open_water(void **state) {
                  "void dielectric d 0 0 5 %s 1.5 0 d ring surface 0 0 8 0 0 0 0 0 1 0 9\n"
                  "void glow g 0 0 4 4 4 4 0 g source sky 0 0 4 0 0 1 360\n",
                  colors[clear]);
-        graze_scene *scene = load(text);
+        graze_scene *scene = load_scene(text);
         assert_radiance(scene, &s, &ray, 0, 4 * (0.04 + (clear ? 0.96 / 2.25 : 0)), 0.02);
         graze_scene_destroy(scene);
     }

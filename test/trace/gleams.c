@@ -56,9 +56,7 @@ static const world worlds[] = {
 static graze_scene *load(const char *text, const char *more) {
     char whole[4096];
     snprintf(whole, sizeof whole, "%s%s%s", ROOM, text, more);
-    graze_scene *scene = scene_from_text(whole);
-    if (!scene)
-        fail_msg("%s", messages);
+    graze_scene *scene = load_scene(whole);
     return scene;
 }
 

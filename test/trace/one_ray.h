@@ -9,9 +9,7 @@
 #include "support/scene_text.h"
 
 static inline graze_answer answer_along(const char *text, const graze_trace_settings *settings, graze_ray ray) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s: %s", text, messages);
+    graze_scene *scene = load_scene(text);
     graze_answer found;
     graze_trace(scene, settings, &ray, 7, &found, NULL);
     graze_scene_destroy(scene);

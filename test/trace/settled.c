@@ -28,18 +28,11 @@ static graze_answer ask(const graze_scene *scene, graze_strategy strategy, int b
     return answer;
 }
 
-static graze_scene *load(const char *text) {
-    graze_scene *scene = scene_from_text(text);
-    if (!scene)
-        fail_msg("%s", messages);
-    return scene;
-}
-
 static const graze_ray slanted = {.origin = {-2, 0.5, 1}, .direction = {1, -0.1, -1}};
 
 /* One path, and the error that its closed form may have. */
 static void assert_exact(const char *text, int bounces) {
-    graze_scene *scene = load(text);
+    graze_scene *scene = load_scene(text);
     for (int strategy = 0; strategy < 2; strategy++) {
         graze_answer answer = ask(scene, (graze_strategy)strategy, bounces, 0, slanted, 1);
         assert_int_equal(answer.samples, 1);
@@ -57,7 +50,7 @@ static void assert_exact(const char *text, int bounces) {
 static void nothing_but_suns(void **state) {
     (void)state;
     graze_scene *scene =
-        load("void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 far source other 0 0 4 0 0 1 9\n");
+        load_scene("void light far 0 0 3 9 9 9 far source sun 0 0 4 1 0 1 5 far source other 0 0 4 0 0 1 9\n");
     graze_trace_settings s = graze_trace_defaults();
     graze_answer answer;
     s.quantity = GRAZE_IRRADIANCE;
@@ -92,7 +85,7 @@ static void something_black(void **state) {
     static const char lamp[] = LAMP "void plastic m 0 0 5 .5 .5 .5 .3 .2 m " FLOOR;
     static const char thing[] = LAMP "void plastic m 0 0 5 .5 .5 .5 .3 .2 void plastic coal 0 0 5 0 0 0 0 0 coal "
                                      "sphere ball 0 0 4 -4 -4 1 1 m " FLOOR;
-    graze_scene *alone = load(lamp), *scene = load(thing);
+    graze_scene *alone = load_scene(lamp), *scene = load_scene(thing);
     for (int strategy = 0; strategy < 2; strategy++)
         for (int bounces = 0; bounces < 2; bounces++) {
             graze_answer truth = ask(alone, (graze_strategy)strategy, bounces, 0, slanted, 1);
@@ -107,8 +100,8 @@ static void something_black(void **state) {
 /* Black, without a doubt. */
 static void hidden_lamp(void **state) {
     (void)state;
-    graze_scene *scene = load(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR
-                                   "m polygon lid 0 0 12 -2 -2 1.5 2 -2 1.5 2 2 1.5 -2 2 1.5\n");
+    graze_scene *scene = load_scene(LAMP "void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR
+                                         "m polygon lid 0 0 12 -2 -2 1.5 2 -2 1.5 2 2 1.5 -2 2 1.5\n");
     graze_answer answer = ask(scene, GRAZE_STRATEGY_MIS, 0, 0, slanted, 1);
     assert_int_equal(answer.samples, 1);
     assert_true(answer.value.g == 0 && answer.standard_error.g == 0);
@@ -123,11 +116,11 @@ static void not_settled(void **state) {
         LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m sphere ball 0 0 4 -4 -4 1 1 m " FLOOR,
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        graze_scene *scene = load(texts[i]);
+        graze_scene *scene = load_scene(texts[i]);
         assert_true(ask(scene, GRAZE_STRATEGY_MIS, 0, 0, slanted, 1).samples >= 32);
         graze_scene_destroy(scene);
     }
-    graze_scene *scene = load(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR);
+    graze_scene *scene = load_scene(LAMP "void plastic m 0 0 5 .5 .5 .5 .1 .2 m " FLOOR);
     assert_true(ask(scene, GRAZE_STRATEGY_BRDF, 0, 0, slanted, 1).samples >= 32);
     assert_true(ask(scene, GRAZE_STRATEGY_UNWEIGHTED, 0, 0, slanted, 1).samples >= 32);
     graze_scene_destroy(scene);
@@ -151,7 +144,7 @@ static const char room[] =
 static void as_without(void **state) {
     (void)state;
     enum { RAYS = 60 };
-    graze_scene *scene = load(room);
+    graze_scene *scene = load_scene(room);
     for (int bounces = 0; bounces < 2; bounces++) {
         double difference = 0, variance = 0, scatter = 0;
         for (int i = 0; i < RAYS; i++) {
@@ -210,9 +203,9 @@ static void panes_are_exact(void **state) {
  * horizon, a few samples tell nothing of shadows: then the error tells. */
 static void closed_ball(void **state) {
     (void)state;
-    graze_scene *scene = load("void light far 0 0 3 1000 1000 1000 far source sun 0 0 4 0 .2 1 3\n"
-                              "void light near 0 0 3 100 100 100 near sphere lamp 0 0 4 3 3 3 .5\n"
-                              "void plastic grey 0 0 5 .5 .5 .5 0 0 grey sphere ball 0 0 4 .1 .2 .3 1.37\n");
+    graze_scene *scene = load_scene("void light far 0 0 3 1000 1000 1000 far source sun 0 0 4 0 .2 1 3\n"
+                                    "void light near 0 0 3 100 100 100 near sphere lamp 0 0 4 3 3 3 .5\n"
+                                    "void plastic grey 0 0 5 .5 .5 .5 0 0 grey sphere ball 0 0 4 .1 .2 .3 1.37\n");
     dice d = {5};
     int lit = 0, wrong = 0;
     for (uint64_t i = 0; i < 20000; i++) {
