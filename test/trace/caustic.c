@@ -262,7 +262,7 @@ static void what_mirrors_may_show_is_in_the_error(void **state) {
  * answers have met nothing. */
 static void a_ball_by_the_window_is_in_the_error(void **state) {
     (void)state;
-    graze_scene *scene = load("void plastic w 0 0 5 .6 .6 .6 0 0 void glow g 0 0 4 10 10 10 0\n"
+    graze_scene *scene = load_scene("void plastic w 0 0 5 .6 .6 .6 0 0 void glow g 0 0 4 10 10 10 0\n"
                               "void metal m 0 0 5 .7 .7 .7 .9 .05 m sphere ball 0 0 4 2.2 3 .5 .5\n"
                               "w polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
                               "w polygon ceiling 0 0 12 0 0 3 0 5 3 4 5 3 4 0 3\n"
