@@ -13,8 +13,8 @@ double emitter_full_angle(double degrees, const rad_primitive *p, const graze_re
     if (!(degrees > 360))
         return degrees;
     double rest = fmod(degrees, 720), angle = rest > 360 ? 720 - rest : rest;
-    rad_primitive_warning(report, p, "an angle of %g degrees, above 360, is one of %g degrees, as in Radiance", degrees,
-                          angle);
+    rad_primitive_warning(report, p, "an angle of %.10g degrees, above 360, is one of %.10g degrees, as in Radiance",
+                          degrees, angle);
     return angle;
 }
 

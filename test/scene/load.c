@@ -74,6 +74,8 @@ static void lights_are_checked(void **state) {
     assert_refused("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 0\n", "source s", "angle");
     assert_warned("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 400\n", ":1:26: source s",
                   "an angle of 400 degrees, above 360, is one of 320 degrees, as in Radiance");
+    assert_warned("void light l 0 0 3 1 1 1 l source s 0 0 4 0 0 1 360.0001\n", ":1:26: source s",
+                  "an angle of 360.0001 degrees, above 360, is one of 359.9999 degrees");
     assert_warned("void spotlight l 0 0 7 1 1 1 1000 0 0 1 l sphere s 0 0 4 0 0 0 1\n", ":1:1: spotlight l",
                   "one of 280 degrees");
 }
