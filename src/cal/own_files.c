@@ -1,5 +1,5 @@
-/* Skies, lamps and windows: CIE's skies as gensky asks for them, Perez's as gendaylit does, the photometry of ies2rad,
- * and the distributions of mkillum. */
+/* Skies, lamps, windows and rounded surfaces: CIE's skies as gensky asks for them, Perez's as gendaylit does, the
+ * photometry of ies2rad, the distributions of mkillum, and the interpolated normals of genrev, gensurf and obj2rad. */
 #include "cal/own_files.h"
 
 #include <stddef.h>
@@ -43,9 +43,35 @@ static const char illum[] = "turn(angle) = if(angle, angle, angle + 2*PI); again
                             "il_alt = Dz; il_azi = turn(Atan2(Dy, Dx)); il_alth = against(A7, A8, A9)^2;"
                             "il_azih = turn(Atan2(against(A4, A5, A6), against(A1, A2, A3)));";
 
+/* Of a lamp that is hung tilted (ies2rad of TILT=INCLUDE), by how it stands in the scene: the angles in degrees of its
+ * axis z from the scene's, and about its x. */
+static const char tilt[] = "tilt_ang = Acos(Kz)/DEGREE; tilt_xang = Atan2(Jy, abs(Jz))/DEGREE;"
+                           "tilt_ang2 = tri(tilt_ang, 90); tilt_xang2 = tri(tilt_xang, 90);";
+
+/* What genrev -s adds to a cone's normal: along the axis z a line in the height, A1 and A2, and away from the axis one
+ * in the distance, A3 and A4. */
+static const char rev[] =
+    "lean = A3 + A4/sqrt(Px*Px + Py*Py); rev_dx = lean*Px; rev_dy = lean*Py; rev_dz = A1*Pz + A2;";
+
+/* What gensurf -s adds to a quadrangle's normal: bilinear in the two coordinates that follow A1 (0 for x, 1 for y, 2
+ * for z); the rows of three from A2 on belong to their product, the first, the second, and 1. */
+static const char surf[] = "surf_u = select(A1 + 1, Py, Pz, Px); surf_v = select(A1 + 1, Pz, Px, Py);"
+                           "bilinear(n) = surf_u*(surf_v*arg(n) + arg(n + 3)) + surf_v*arg(n + 6) + arg(n + 9);"
+                           "surf_dx = bilinear(2); surf_dy = bilinear(3); surf_dz = bilinear(4);";
+
+/* What obj2rad, tmesh2rad and mgf2rad add to a triangle's normal, and its texture coordinates: linear in the two
+ * coordinates that follow A1, three rows of factors of the first, of the second, and of 1. The normal is brought to
+ * length 1. */
+static const char tmesh[] =
+    "bu = select(A1 + 1, Py, Pz, Px); bv = select(A1 + 1, Pz, Px, Py);"
+    "row(n) = bu*arg(n) + bv*arg(n + 1) + arg(n + 2); v1 = row(2); v2 = row(5); v3 = row(8);"
+    "size = sqrt(v1*v1 + v2*v2 + v3*v3); dx = v1/size - Nx; dy = v2/size - Ny; dz = v3/size - Nz;"
+    "u = frac(v1); v = frac(v2);";
+
 static const struct {
     const char *name, *text;
-} files[] = {{"perezlum", perezlum}, {"skybright", skybright}, {"source", source}, {"illum", illum}};
+} files[] = {{"perezlum", perezlum}, {"skybright", skybright}, {"source", source}, {"illum", illum}, {"tilt", tilt},
+             {"rev", rev},           {"surf", surf},           {"tmesh", tmesh}};
 
 const char *cal_own_file(const char *name) {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {

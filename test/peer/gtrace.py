@@ -69,6 +69,8 @@ def cases():
     relief = 0.8 * outward + middle
     seen = (([1, -3, 1.5] - relief) * outward).sum(1) > 0
     yield Case("relief", "lamp relief", aim([1, -3, 1.5], relief[seen]), "-ab 0 -st 1", repeat=512)
+    ground = sensors([-2.6, -3, 0], [2.9, 2, 0], 400, up, np.random.default_rng(20221122))[:, :3]
+    yield Case("rounded surfaces, tilted lamps", "lamp rounded", aim([0.5, -4, 4], ground), "-ab 0 -st 1", repeat=256)
     turned = np.vstack([np.c_[other.uniform(-0.6, 0.6, (60, 2)), np.zeros(60)], normalized(other.normal(size=(60, 3))) * 0.6 + [2, 0, 0.6]])
     yield Case("grooves by functions", "lamp lathe", aim([0.4, -2, 3], turned), "-ab 0 -st 1", repeat=256)
     terrace = np.vstack([floor[::3], sensors([-2, 1, 0.1], [2, 1, 1.4], 36, [0, -1, 0], random)])
