@@ -28,6 +28,9 @@ void rad_reader_end(rad_reader *reader) {
 graze_status rad_reader_complain(rad_reader *reader, const place *where, const char *format, ...) {
     char text[512];
     va_list arguments;
+    /* What is wrong with the same primitive once more, when it was to be the last that is told. */
+    if (reader->error_count >= ERRORS_MOST)
+        return reader->status;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
