@@ -30,22 +30,6 @@ static graze_status report_trouble(const trouble *t, const graze_report *report)
     return GRAZE_SYSTEM_ERROR;
 }
 
-vec3 geometry_corner(const geometry_tree *tree, const geometry_triangle *triangle, int corner) {
-    const shape *s = &tree->shapes[triangle->surface];
-    return s->polygon.vertices[s->polygon.triangles[triangle->index][corner]];
-}
-
-static void collect_polygon(const geometry_tree *tree, int surface, geometry_triangle *triangle) {
-    const shape *s = &tree->shapes[surface];
-    for (uint32_t k = 0; k < s->polygon.triangle_count; k++, triangle++) {
-        *triangle = (geometry_triangle){.normal = s->polygon.normal,
-                                        .center = s->polygon.center,
-                                        .surface = surface,
-                                        .index = k,
-                                        .shines = s->shines};
-    }
-}
-
 static double triangle_border(double height) {
     return double_min(double_max(height / 64, GEOMETRY_BORDER_LEAST), GEOMETRY_BORDER);
 }
@@ -107,7 +91,7 @@ static void collect_block(void *user, size_t index, int worker) {
             tree->curved[curved++] = (int)i;
             continue;
         }
-        collect_polygon(tree, (int)i, &tree->triangles[triangle]);
+        geometry_collect_polygon(tree, (int)i, &tree->triangles[triangle]);
         triangle += tree->shapes[i].polygon.triangle_count;
     }
     for (size_t i = s->blocks[index].first_triangle; i < triangle; i++) {

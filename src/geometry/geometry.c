@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "geometry/embree_scene.h"
+#include "geometry/few.h"
 
 /* Numbers the surfaces of copies; false where there are more than numbers. */
 static bool number_surfaces(const geometry *g, geometry_tree *tree) {
@@ -33,6 +34,8 @@ static graze_status build_surveyed(geometry *g, geometry_survey *s, int threads,
         return report_error(report, NULL, "too many triangles");
     if (tree->triangle_count + tree->curved_count + tree->placed_count == 0)
         return GRAZE_OK;
+    if (g->tree_count == 1 && geometry_few_suffice(tree))
+        return geometry_few_make(tree, report);
     return geometry_scene_build(g, s, threads, report);
 }
 
@@ -79,7 +82,8 @@ graze_status geometry_build(geometry **made, const geometry_group *groups, size_
         geometry_destroy(g);
         return status;
     }
-    if (trees[0].scene)
+    g->empty = !trees[0].scene && !trees[0].few;
+    if (!g->empty)
         g->largest_reach = geometry_box_reach((geometry_box){trees[0].lower, trees[0].upper});
     *made = g;
     return GRAZE_OK;
@@ -88,6 +92,7 @@ graze_status geometry_build(geometry **made, const geometry_group *groups, size_
 static void free_tree(geometry_tree *tree) {
     if (tree->scene)
         rtcReleaseScene(tree->scene);
+    free(tree->few);
     free(tree->triangles);
     free(tree->reach);
     free(tree->curved);

@@ -51,7 +51,7 @@ typedef struct geometry_hit {
 
 /* Builds from groups; what they point to must live as long as the geometry. The first one is the scene; copies are of
  * later groups than the one that they stand in, and no more than RAD_DEPTH deep. `threads` bounds the build's own.
- * An empty scene is allowed and hits nothing; Embree is then not even started. */
+ * An empty scene is allowed and hits nothing; Embree is then not even started, nor where surfaces are few (few.h). */
 graze_status geometry_build(geometry **, const geometry_group *groups, size_t count, int threads, const graze_report *);
 void geometry_destroy(geometry *);
 

@@ -53,13 +53,16 @@ typedef struct geometry_triangle {
 } geometry_triangle;
 _Static_assert(sizeof(geometry_triangle) == 64, "a triangle fills one cache line");
 
+struct geometry_few;
+
 /* One group as Embree has it. */
 typedef struct geometry_tree {
     const shape *shapes;
     size_t shape_count;
     const geometry_placement *placements;
     size_t placement_count;
-    RTCScene scene; /* null where there is nothing */
+    RTCScene scene;           /* null where there is nothing, or: */
+    struct geometry_few *few; /* in its place (geometry/few.h); null: not */
     vec3 lower, upper, center;
     double radius;                /* around the center; holds all */
     double scale;                 /* a power of two that makes the radius at most 1 */
@@ -78,7 +81,8 @@ typedef struct geometry_tree {
 struct geometry {
     geometry_tree *trees; /* by group: the scene first */
     size_t tree_count;
-    RTCDevice device;     /* null in an empty scene */
+    bool empty;           /* no ray meets anything */
+    RTCDevice device;     /* null in an empty scene, or one of few surfaces */
     int threads;          /* that may build */
     double largest_reach; /* of all surfaces' coordinates */
     /* Without nodes unless prepared (geometry/shaft.h). */

@@ -375,7 +375,7 @@ static bool is_behind_light(const geometry *g, const geometry_patch *patch) {
 }
 
 geometry_visibility geometry_sight_of_patch(const geometry *g, const geometry_patch *patch) {
-    if (!g->trees[0].scene || (!g->sights.nodes && !g->copied_sights.nodes))
+    if (g->empty || (!g->sights.nodes && !g->copied_sights.nodes))
         return GEOMETRY_MIXED;
     if (is_behind_light(g, patch))
         return GEOMETRY_BLOCKED;

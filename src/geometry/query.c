@@ -1,6 +1,7 @@
 /* Rays as they are asked for, and the answers. */
 #include <math.h>
 
+#include "geometry/few.h"
 #include "geometry/query.h"
 
 /* An origin that is given from outside is as good as its first digits. */
@@ -27,7 +28,6 @@ static const candidate *visible(const query *q) {
 /* All but candidates and misses, which are set before they are read: to clear them would take longer than many a query.
  */
 static void prepare(query *q, const geometry *g, const geometry_ray *ray) {
-    embree_context_init(&q->context);
     q->geometry = g;
     q->origin = ray->origin;
     q->direction = ray->direction;
@@ -57,6 +57,11 @@ static bool trace(query *q) {
     v->radius = tree->radius;
     v->unit = 1 / tree->scale;
     q->visit = v;
+    if (tree->few) {
+        tree->few->look(q);
+        return true;
+    }
+    embree_context_init(&q->context);
     if (!query_clip(q, &q->scene))
         return false;
     query_cast(q);
@@ -86,7 +91,7 @@ static void describe_hit(const geometry *g, const candidate *found, geometry_hit
 
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
     hit->surface = -1;
-    if (!g->trees[0].scene || !is_ray(ray))
+    if (g->empty || !is_ray(ray))
         return false;
     query q;
     prepare(&q, g, ray);
@@ -102,7 +107,7 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
 
 /* Whether the way is shut, by more than panes where these are let pass; `q` tells of them. */
 static bool is_occluded(query *q, const geometry *g, const geometry_ray *ray, int64_t target, bool passes_panes) {
-    if (!g->trees[0].scene || !is_ray(ray))
+    if (g->empty || !is_ray(ray))
         return false;
     prepare(q, g, ray);
     q->target = target;

@@ -1,8 +1,10 @@
-/* A ray on its way: what is asked of it, and what has been found. For the files named query_*.c alone.
+/* A ray on its way: what is asked of it, and what has been found. For the files named query_*.c and few_look*
+ * alone.
  *
  * Embree finds candidates in single precision; which of them the ray meets, and where, is decided in double precision
  * alone (query_triangle.c, query_curved.c), as is which of them count (query_offer.c). What single precision may
- * mistake is then only which candidates there are, near edges: see query_miss.c.
+ * mistake is then only which candidates there are, near edges: see query_miss.c. Where surfaces are few, few_look.h
+ * finds them in its place.
  *
  * Where copies of groups are placed, Embree is sent through each group in that group's own units, along the ray as it
  * is there (query_cast.c, query_copy.c): single precision then costs no more than if the group were all of the scene.
@@ -107,6 +109,13 @@ bool query_offer(query *);
 
 /* Offers a triangle near a miss. One that the ray passes far off has nothing to do with it. */
 void query_offer_neighbour(query *, unsigned primitive);
+
+/* Offers a plate of a scene of few surfaces, which the ray surely meets, or may: then the triangles tell. True where
+ * that ends or shortens the search. */
+bool query_offer_plate(query *, const geometry_triangle *, unsigned count, bool certain);
+
+/* Offers a surface that is no polygon, by Embree's number of it. */
+bool query_offer_curved(query *, unsigned primitive);
 
 /* The place at a distance along the ray, in Embree's units of the group that is visited. */
 vec3 query_embree_place(const query *, double distance);

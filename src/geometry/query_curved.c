@@ -5,7 +5,7 @@
 #include "geometry/placed.h"
 #include "geometry/query.h"
 
-static bool offer_curved(query *q, unsigned primitive) {
+bool query_offer_curved(query *q, unsigned primitive) {
     const visit *v = q->visit;
     int64_t surface = v->first + v->tree->curved[primitive];
     if (surface == q->target)
@@ -40,12 +40,12 @@ static bool offer_curved(query *q, unsigned primitive) {
 void geometry_intersect_curved(const struct RTCIntersectFunctionNArguments *args) {
     query *q = (query *)args->context;
     struct RTCRay *ray = embree_ray(args->rayhit);
-    if (args->valid[0] && offer_curved(q, args->primID))
+    if (args->valid[0] && query_offer_curved(q, args->primID))
         ray->tfar = fminf(ray->tfar, query_embree_limit(q, q->visit));
 }
 
 void geometry_occluded_curved(const struct RTCOccludedFunctionNArguments *args) {
     query *q = (query *)args->context;
-    if (args->valid[0] && offer_curved(q, args->primID))
+    if (args->valid[0] && query_offer_curved(q, args->primID))
         embree_ray(args->ray)->tfar = -INFINITY;
 }

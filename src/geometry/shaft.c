@@ -40,7 +40,7 @@ graze_status geometry_prepare_sights(geometry *g, const graze_report *report) {
     const geometry_tree *scene = &g->trees[0];
     vec3 reach = {scene->radius, scene->radius, scene->radius};
     vec3 lower = vec3_subtract(scene->center, reach), upper = vec3_add(scene->center, reach);
-    if (!scene->scene || g->sights.nodes || g->copied_sights.nodes)
+    if (g->empty || g->sights.nodes || g->copied_sights.nodes)
         return GRAZE_OK;
     bool built = scene->shape_count == 0 ||
                  shaft_tree_build(&g->sights, scene->shapes, scene->shape_count, lower, upper, g->threads);
@@ -151,7 +151,7 @@ static geometry_visibility look_through(shaft *s, const geometry *g, const shaft
 
 geometry_visibility geometry_sight_of(const geometry *g, const geometry_sight *sight) {
     shaft s;
-    if (!g->trees[0].scene)
+    if (g->empty)
         return GEOMETRY_CLEAR;
     if (!g->sights.nodes && !g->copied_sights.nodes)
         return GEOMETRY_MIXED;
@@ -204,7 +204,7 @@ static bool reflects_above(const geometry *g, const shaft_tree *tree, vec3 point
 
 bool geometry_reflects_above(const geometry *g, vec3 point, vec3 normal, int64_t from) {
     if (!g->sights.nodes && !g->copied_sights.nodes)
-        return g->trees[0].scene != NULL;
+        return !g->empty;
     return reflects_above(g, &g->sights, point, normal, from) ||
            reflects_above(g, &g->copied_sights, point, normal, from);
 }

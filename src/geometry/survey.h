@@ -42,4 +42,7 @@ static inline size_t geometry_block_end(const geometry_survey *s, size_t index) 
 /* Finds the extent of all, and how many triangles and curved surfaces there are. False: there is no memory. */
 bool geometry_survey_make(const geometry *, geometry_survey *, int threads);
 
+/* Lays out a polygon's triangles, but for what Embree's errors do to them. */
+void geometry_collect_polygon(const geometry_tree *, int surface, geometry_triangle *);
+
 #endif
