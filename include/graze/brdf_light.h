@@ -14,7 +14,7 @@
  *   error                    relative  at least  measured, relative
  *   graze_brdf_polygon       1e-8      1e-14     3e-9
  *   graze_brdf_ellipse       1e-8      1e-14     4e-9
- *   graze_diffuse_polygon    1e-14     1e-14     1e-15
+ *   graze_diffuse_polygon    1e-14     1e-14     1e-15     and of a quadrangle
  *   graze_diffuse_ellipse    1e-9      1e-14     2e-11
  *
  * as tested; for the lobe, 4e-16/(roughness v.z) more, since so much does a unit vector's rounding matter, and at least
@@ -47,6 +47,8 @@ GRAZE_API double graze_brdf_ellipse(const graze_brdf *brdf, graze_vec3 center, g
 
 /* The diffuse term for reflectance 1, whatever the viewer: Lambert's formula. */
 GRAZE_API double graze_diffuse_polygon(const graze_vec3 *corners, size_t count);
+/* The same of four corners, as seen from a point of a surface with unit normal `normal`, all in space. */
+GRAZE_API double graze_diffuse_quadrangle(graze_vec3 point, graze_vec3 normal, const graze_vec3 corners[4]);
 GRAZE_API double graze_diffuse_ellipse(graze_vec3 center, graze_vec3 first, graze_vec3 second);
 
 #ifdef __cplusplus

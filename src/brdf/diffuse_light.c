@@ -4,6 +4,7 @@
 
 #include "brdf/constants.h"
 #include "brdf/gauss.h"
+#include "brdf/kernels.h"
 #include "brdf/outline.h"
 #include "graze/brdf_light.h"
 
@@ -13,21 +14,8 @@ static const double longest_turn = .4;
 /* An arc is cut in halves no more often than so. */
 static const int deepest = 20;
 
-/* Squared tangents up to this, that of 15 degrees and a little more, are small enough for the series. */
-static const double small_tangent2 = .0725;
-
-/* Two numbers, reckoned with at once. */
-typedef double pair __attribute__((vector_size(2 * sizeof(double))));
-
-/* atan(t) / t for the square of t, by the series, whose rest is below 2^-54. */
-static inline pair arc_tangent_over(pair t2) {
-    pair x = -t2, x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
-    pair low = (1 + x * (1. / 3)) + x2 * (1. / 5 + x * (1. / 7));
-    pair middle = (1. / 9 + x * (1. / 11)) + x2 * (1. / 13 + x * (1. / 15));
-    pair high = (1. / 17 + x * (1. / 19)) + x2 * (1. / 21 + x * (1. / 23));
-    pair last = 1. / 25 + x * (1. / 27);
-    return (low + x4 * middle) + x8 * (high + x4 * last);
-}
+typedef double numbers;
+#include "brdf/arc_tangent.h"
 
 /* The angle that an edge spans times the height of the unit normal of its plane. With n = p x q and c = p.q the tangent
  * of half the angle is |n| / (h + c), h^2 = n^2 + c^2. */
@@ -35,8 +23,8 @@ static inline double along_edge(graze_vec3 p, graze_vec3 q) {
     graze_vec3 n = {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
     double sine2 = n.x * n.x + n.y * n.y + n.z * n.z, cosine = p.x * q.x + p.y * q.y + p.z * q.z;
     double whole = sqrt(sine2 + cosine * cosine) + cosine;
-    if (cosine > 0 && sine2 <= small_tangent2 * whole * whole)
-        return 2 * n.z / whole * arc_tangent_over((pair){sine2 / (whole * whole), 0})[0];
+    if (cosine > 0 && sine2 <= BRDF_SMALL_TANGENT2 * whole * whole)
+        return 2 * n.z / whole * arc_tangent_over(sine2 / (whole * whole));
     double sine = sqrt(sine2);
     return sine > 0 ? n.z / sine * atan2(sine, cosine) : 0;
 }
@@ -100,32 +88,42 @@ static bool is_above(const graze_vec3 *corners, size_t count) {
     return true;
 }
 
-/* Adds what the edges from a to b and from b to c are along_edge. False where one is too long for the series. */
-static inline bool along_two_edges(graze_vec3 a, graze_vec3 b, graze_vec3 c, pair *sum) {
-    const pair px = {a.x, b.x}, py = {a.y, b.y}, pz = {a.z, b.z};
-    const pair qx = {b.x, c.x}, qy = {b.y, c.y}, qz = {b.z, c.z};
-    const pair nx = py * qz - pz * qy, ny = pz * qx - px * qz, nz = px * qy - py * qx;
-    const pair sine2 = nx * nx + ny * ny + nz * nz, cosine = px * qx + py * qy + pz * qz;
-    const pair length2 = sine2 + cosine * cosine, length = {sqrt(length2[0]), sqrt(length2[1])};
-    const pair whole = length + cosine, scale = 1 / whole, tangent2 = sine2 * scale * scale;
-    if (!(cosine[0] > 0 && cosine[1] > 0 && tangent2[0] <= small_tangent2 && tangent2[1] <= small_tangent2))
-        return false;
-    *sum += 2 * nz * scale * arc_tangent_over(tangent2);
-    return true;
-}
-
-double graze_diffuse_polygon(const graze_vec3 *corners, size_t count) {
+static double along_edges(const graze_vec3 *corners, size_t count) {
     double sum = 0;
-    pair sums = {0, 0};
-    if (count == 4 && is_above(corners, count) && along_two_edges(corners[0], corners[1], corners[2], &sums) &&
-        along_two_edges(corners[2], corners[3], corners[0], &sums))
-        return reflected(sums[0] + sums[1]);
     if (count >= 3 && is_above(corners, count))
         for (size_t i = 0; i < count; ++i)
             sum += along_edge(corners[i > 0 ? i - 1 : count - 1], corners[i]);
     else if (count >= 3)
         brdf_outline_of_polygon(corners, count, &(brdf_outline_visitor){add_edge, add_arc, &sum});
-    return reflected(sum);
+    return sum;
+}
+
+/* A vector in a frame whose third axis is the normal. */
+static graze_vec3 turned(graze_vec3 v, graze_vec3 normal) {
+    double sign = copysign(1, normal.z), a = -1 / (sign + normal.z), b = normal.x * normal.y * a;
+    graze_vec3 x = {1 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x};
+    graze_vec3 y = {b, sign + normal.y * normal.y * a, -normal.y};
+    return (graze_vec3){v.x * x.x + v.y * x.y + v.z * x.z, v.x * y.x + v.y * y.y + v.z * y.z,
+                        v.x * normal.x + v.y * normal.y + v.z * normal.z};
+}
+
+double graze_diffuse_polygon(const graze_vec3 *corners, size_t count) {
+    double sum;
+    if (count == 4 && brdf_kernels_best()->panel((graze_vec3){0, 0, 0}, (graze_vec3){0, 0, 1}, corners, &sum))
+        return reflected(sum);
+    return reflected(along_edges(corners, count));
+}
+
+double graze_diffuse_quadrangle(graze_vec3 point, graze_vec3 normal, const graze_vec3 corners[4]) {
+    double sum;
+    if (brdf_kernels_best()->panel(point, normal, corners, &sum))
+        return reflected(sum);
+    graze_vec3 seen[4];
+    for (int i = 0; i < 4; ++i) {
+        graze_vec3 from = {corners[i].x - point.x, corners[i].y - point.y, corners[i].z - point.z};
+        seen[i] = turned(from, normal);
+    }
+    return reflected(along_edges(seen, 4));
 }
 
 double graze_diffuse_ellipse(graze_vec3 center, graze_vec3 first, graze_vec3 second) {

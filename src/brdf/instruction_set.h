@@ -6,6 +6,7 @@
 #include "brdf/float_loops.h"
 #include "brdf/kernels.h"
 #include "brdf/pair_loops.h"
+#include "brdf/panel_kernels.h"
 #include "brdf/sample_loops.h"
 
 const brdf_kernels BRDF_TABLE = {
@@ -28,4 +29,5 @@ const brdf_kernels BRDF_TABLE = {
     .widen = widen,
     .narrow = narrow,
     .field_along_pieces = field_along_pieces,
+    .panel = panel,
 };

@@ -12,7 +12,8 @@
  *   are taken out, and the same arithmetic serves.
  *
  * Whole lights (lobe_light.c) are integrals along outlines (outline.c), in parts (lobe_part.c), of a field
- * (lobe_field.h) that the table has as well: field_loops.h, by the rules of gauss.h.
+ * (lobe_field.h) that the table has as well: field_loops.h, by the rules of gauss.h. The diffuse term's (diffuse_light.c) of
+ * a panel is there, too: panel_kernels.h.
  *
  * Integrals over all directions (albedo*.c, mean_albedo.c, over the slopes of slope_plane.c, by the rule of
  * quadrature.c) and the diffuse term (diffuse.c) are plain C and libm. */
@@ -48,6 +49,10 @@ typedef void brdf_narrow_function(float *const *to, const brdf_block *from, int 
 /* Part of an integral along an outline, BRDF_MOST_PIECES of it at most; lobe_field.h has what it is of. */
 typedef double brdf_field_along_pieces_function(const brdf_lobe_field *, const brdf_piece *, int count);
 
+/* Of a panel with four corners, as seen from a point of a surface with this normal, what Lambert's formula sums up.
+ * False where a corner is not above the surface, or an edge spans more than the series of arc_tangent.h reaches. */
+typedef bool brdf_panel_function(graze_vec3 point, graze_vec3 normal, const graze_vec3 *corners, double *sum);
+
 /* Functions of brdf.h and brdf_batch.h, compiled for one instruction set. All tables give the same bits. */
 typedef struct brdf_kernels {
     const char *name;
@@ -61,6 +66,7 @@ typedef struct brdf_kernels {
     brdf_widen_function *widen;
     brdf_narrow_function *narrow;
     brdf_field_along_pieces_function *field_along_pieces;
+    brdf_panel_function *panel;
 } brdf_kernels;
 
 extern const brdf_kernels brdf_kernels_baseline;

@@ -72,14 +72,24 @@ static bool source_light(const receiver *r, const scene_light *light) {
     return true;
 }
 
+/* A panel on a matte surface: what there is most of. */
+static inline bool is_plain_panel(const shape *s, bool lobe) {
+    return s && s->kind == SHAPE_POLYGON && s->polygon.vertex_count == 4 && !lobe;
+}
+
 bool unshadowed_light_at(const graze_scene *scene, const graze_surface *s, vec3 point, int index, bool glossy,
                          unshadowed_light *result) {
     *result = (unshadowed_light){0, 0};
     const scene_light *light = &scene->lights[index];
     bool lobe = glossy && s->specular_lobe == GRAZE_LOBE_GLOSSY;
-    receiver r = {{s->x, s->y, s->n}, point, s->local_view, lobe ? &s->lobe : NULL, result};
     if (light->spot || light->modifiers || s->fresnel || (lobe && s->lobe.model != GRAZE_BRDF_GMD))
         return false;
+    if (is_plain_panel(light->shape, lobe)) {
+        if (vec3_dot(light->shape->polygon.normal, point) > light->shape->polygon.offset)
+            result->diffuse = graze_diffuse_quadrangle(point, s->n, light->shape->polygon.vertices);
+        return true;
+    }
+    receiver r = {{s->x, s->y, s->n}, point, s->local_view, lobe ? &s->lobe : NULL, result};
     if (!light->shape)
         return (light->alone || !light->glow) && light->half_angle < PI / 2 && source_light(&r, light);
     switch (light->shape->kind) {

@@ -10,6 +10,7 @@
 #include "brdf/common.h"
 #include "brdf/field_loops.h"
 #include "brdf/kernel_tables.h"
+#include "brdf/panel_kernels.h"
 
 static void exponential(void **state) {
     (void)state;
@@ -99,12 +100,35 @@ static void instruction_sets(void **state) {
     }
 }
 
+/* The same of panels: small ones, large ones, and some that are not wholly above the surface. */
+static void panels(void **state) {
+    (void)state;
+    const brdf_kernels *tables[KERNEL_TABLES_MOST];
+    int available = kernel_tables_available(tables), fit = 0;
+    uint64_t seed = 73;
+    for (int i = 0; i < 20000; ++i) {
+        const double size = draw_power(&seed, 1e-3, 1);
+        const graze_vec3 point = {draw(&seed), draw(&seed), draw(&seed)}, normal = {0, .6, .8};
+        graze_vec3 corners[4];
+        for (int k = 0; k < 4; ++k)
+            corners[k] = (graze_vec3){size * (k == 1 || k == 2) + draw(&seed) / 9, size * (k >= 2) + draw(&seed) / 9,
+                                      1 + draw(&seed)};
+        double first = 0;
+        bool done = panel(point, normal, corners, &first);
+        fit += done;
+        for (int k = 0; k < available; ++k) {
+            double other = 0;
+            assert_int_equal(tables[k]->panel(point, normal, corners, &other), done);
+            assert_memory_equal(&other, &first, sizeof first);
+        }
+    }
+    assert_true(fit > 2000 && fit < 18000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exponential),
-        cmocka_unit_test(complement),
-        cmocka_unit_test(gauss_rules),
-        cmocka_unit_test(instruction_sets),
+        cmocka_unit_test(exponential),      cmocka_unit_test(complement), cmocka_unit_test(gauss_rules),
+        cmocka_unit_test(instruction_sets), cmocka_unit_test(panels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

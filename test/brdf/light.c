@@ -272,6 +272,17 @@ static void far_from_the_lobe(void **state) {
     }
 }
 
+/* The panel where it stands in space, by a frame whose third axis is the surface's normal there. */
+static double in_space(const graze_vec3 *corners, uint64_t *seed) {
+    graze_vec3 n = direction(draw_between(seed, -1, 1), draw_between(seed, 0, 2 * pi));
+    graze_vec3 x = cross(n, fabs(n.x) < .5 ? (graze_vec3){1, 0, 0} : (graze_vec3){0, 1, 0}), placed[4];
+    x = add((graze_vec3){0, 0, 0}, 1 / sqrt(dot(x, x)), x);
+    graze_vec3 y = cross(n, x), point = {draw(seed), draw(seed), draw(seed)};
+    for (int k = 0; k < 4; ++k)
+        placed[k] = add(add(add(point, corners[k].x, x), corners[k].y, y), corners[k].z, n);
+    return graze_diffuse_quadrangle(point, n, placed);
+}
+
 /* A polygon with a share of it cut off: from some point of one edge to one of another. */
 static void parts_and_order(void **state) {
     (void)state;
@@ -300,6 +311,7 @@ static void parts_and_order(void **state) {
         assert_near(graze_diffuse_polygon(left, 4) + graze_diffuse_polygon(right, 4), flat, 1e-13);
         assert_near(graze_diffuse_polygon(turned, 4), flat, 1e-13);
         assert_near(graze_diffuse_polygon(mirrored, 4), flat, 1e-13);
+        assert_near(in_space(c, &seed), flat, 1e-13);
     }
 }
 
@@ -357,8 +369,9 @@ static void extremes(void **state) {
         graze_vec3 v = i % 2 ? corners[4] : direction(draw_power(&seed, 1e-200, 1), 7 * draw(&seed));
         double results[] = {graze_brdf_polygon(&brdf, corners, 4, v), graze_diffuse_polygon(corners, 4),
                             graze_brdf_ellipse(&brdf, corners[0], corners[1], corners[2], v),
-                            graze_diffuse_ellipse(corners[0], corners[1], corners[2])};
-        for (int k = 0; k < 4; ++k)
+                            graze_diffuse_ellipse(corners[0], corners[1], corners[2]),
+                            graze_diffuse_quadrangle(corners[4], v, corners)};
+        for (int k = 0; k < 5; ++k)
             if (!(results[k] >= 0 && results[k] <= 1))
                 fail_msg("result %d of draw %d is %g", k, i, results[k]);
     }
