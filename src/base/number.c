@@ -31,7 +31,3 @@ bool text_to_integer(const char *word, int *value) {
     *value = (int)number;
     return true;
 }
-
-float number_to_float(double value) {
-    return value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : (float)value;
-}

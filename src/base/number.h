@@ -2,6 +2,7 @@
 #ifndef BASE_NUMBER_H
 #define BASE_NUMBER_H
 
+#include <float.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -22,6 +23,8 @@ size_t number_print(char text[NUMBER_TEXT_SIZE], int digits, double value);
 size_t number_print_exact(char text[NUMBER_TEXT_SIZE], double value);
 
 /* The nearest float; what is too large becomes +-FLT_MAX. NaN stays NaN. */
-float number_to_float(double value);
+static inline float number_to_float(double value) {
+    return value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : (float)value;
+}
 
 #endif

@@ -109,6 +109,13 @@ static void prepare_colours(graze_surface *s, const graze_material *m, bool mirr
         return;
     }
     double specularity = m->specularity, fresnel = 0;
+    if (m->kind == GRAZE_PLASTIC && specularity == 0) {
+        s->fresnel = s->transmits = 0;
+        s->specular = rgb_gray(0);
+        s->specular_lobe = GRAZE_LOBE_NONE;
+        s->diffuse = m->color;
+        return;
+    }
     s->fresnel = mirror && specularity >= MATERIAL_FRESNEL_THRESHOLD;
     if (s->fresnel)
         fresnel = view_fresnel(view_cosine);

@@ -52,7 +52,9 @@ static bool is_unit(vec3 v) {
 }
 
 bool describe_ray(const graze_ray *ray, vec3 *direction, double *limit) {
-    *direction = is_unit(ray->direction) ? ray->direction : vec3_safe_normalize(ray->direction);
+    bool unit = is_unit(ray->direction);
+    *direction = unit ? ray->direction : vec3_safe_normalize(ray->direction);
     *limit = ray->limit > 0 ? ray->limit : GEOMETRY_FAR;
-    return is_finite(ray->origin) && is_finite(ray->direction) && vec3_max_abs(*direction) > 0 && isfinite(ray->limit);
+    return is_finite(ray->origin) && isfinite(ray->limit) &&
+           (unit || (is_finite(ray->direction) && vec3_max_abs(*direction) > 0));
 }

@@ -107,7 +107,8 @@ static rgb error_of_exact(rgb value, rgb known_error, bool integrated) {
 /* A single sample, which tells nothing of its error if another would differ. */
 static void estimate_once(const graze_trace_settings *s, uint64_t stream, estimate_parts *parts,
                           estimate_sample *sample, void *user, graze_answer *answer) {
-    sampler points = sampler_start(sampler_key(s->seed, stream, 0), 0);
+    const sampler_origin origin = {s->seed, stream};
+    sampler points = sampler_start_once(&origin);
     path_sample taken;
     estimate_luck luck = ESTIMATE_NOISY;
     sample(user, &points, &taken, &luck);

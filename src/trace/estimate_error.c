@@ -56,10 +56,6 @@ rgb estimate_with_known_error(rgb variance, rgb value, bool integrated) {
     return (rgb){sqrt(sum.r), sqrt(sum.g), sqrt(sum.b)};
 }
 
-rgb estimate_not_negative(rgb mean) {
-    return (rgb){fmax(mean.r, 0), fmax(mean.g, 0), fmax(mean.b, 0)};
-}
-
 void estimate_share_halves(const estimate_half halves[ESTIMATE_HALVES], double share[ESTIMATE_HALVES]) {
     uint32_t all = halves[0].taken + halves[1].taken;
     bool alike = halves[0].taken < halves[1].taken + 2 && halves[1].taken <= halves[0].taken;

@@ -28,7 +28,9 @@ void estimate_share_halves(const estimate_half[ESTIMATE_HALVES], double share[ES
 
 /* Radiance is not negative, though controls are, and few samples of much noise may leave more of them than of light:
  * the value nearest to what was found is then 0, and nearer to the truth whatever that is. */
-rgb estimate_not_negative(rgb mean);
+static inline rgb estimate_not_negative(rgb mean) {
+    return (rgb){double_max(mean.r, 0), double_max(mean.g, 0), double_max(mean.b, 0)};
+}
 
 /* The standard error of a value of this variance. */
 rgb estimate_with_known_error(rgb variance, rgb value, bool integrated);

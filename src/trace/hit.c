@@ -28,7 +28,8 @@ __attribute__((noinline)) static bool goes_on(const path_context *context, scene
     return true;
 }
 
-path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {
+void path_cast_into(path_hit *hit, const path_context *context, vec3 origin, vec3 direction, double limit,
+                    int64_t from) {
     const graze_scene *scene = context->scene;
     const bool may_go_on = scene->cuts || !context->settings->back_faces_visible;
     geometry_ray ray = {.origin = origin, .direction = direction, .far = limit, .from = from};
@@ -38,8 +39,8 @@ path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, dou
     bool passed = false;
     walk.begun = false;
     while (geometry_intersect(scene->geometry, &ray, &found)) {
-        if (!may_go_on || !goes_on(context, &walk, &ray, &found, &passed))
-            return (path_hit){.surface = found.surface,
+        if (!may_go_on || !goes_on(context, &walk, &ray, &found, &passed)) {
+            *hit = (path_hit){.surface = found.surface,
                               .light = scene_surface_at(scene, found.surface).light,
                               .distance = travelled + found.distance,
                               .point = found.point,
@@ -47,12 +48,14 @@ path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, dou
                               .direction = direction,
                               .behind = vec3_dot(found.normal, direction) > 0,
                               .passed = passed};
+            return;
+        }
         travelled += found.distance;
         ray.origin = found.point;
         ray.far -= found.distance;
         ray.from = found.surface;
     }
-    return (path_hit){.surface = -1,
+    *hit = (path_hit){.surface = -1,
                       .light = limit >= GEOMETRY_FAR ? light_source_towards(scene, direction) : -1,
                       .distance = GEOMETRY_FAR,
                       .point = origin,

@@ -16,6 +16,12 @@ typedef struct path_hit {
 } path_hit;
 
 /* Finds what the ray meets first, passing hidden back faces. */
-path_hit path_cast(const path_context *, vec3 origin, vec3 direction, double limit, int64_t from);
+void path_cast_into(path_hit *, const path_context *, vec3 origin, vec3 direction, double limit, int64_t from);
+
+static inline path_hit path_cast(const path_context *context, vec3 origin, vec3 direction, double limit, int64_t from) {
+    path_hit hit;
+    path_cast_into(&hit, context, origin, direction, limit, from);
+    return hit;
+}
 
 #endif

@@ -56,7 +56,7 @@ static geometry_visibility visibility(const graze_scene *scene, const vertex *v,
  * the surface around. */
 static path_memory_light look_at(const path *p, const vertex *v, int index, bool glossy, geometry_visibility seen) {
     const graze_scene *scene = p->context->scene;
-    path_memory_light *kept = path_is_at_first(p) ? &p->context->memory->lights[index] : NULL;
+    path_memory_light *kept = path_is_at_first(p) ? path_memory_of_light(p->context->memory, index) : NULL;
     if (kept && kept->kept)
         return *kept;
     bool whole = !v->function && (!v->leans || light_choice_is_above(scene, index, v->point, v->normal));

@@ -52,7 +52,7 @@ static double passage_chance(const path *p, rgb transmittance) {
 /* Whether light is found by a lobe that may not go on, too: where Eq. 16 stands alone, and a gloss where it shares,
  * which light samples might miss, as they mostly do a sky that is seen through windows; and what is refracted on its
  * way no light sample finds. */
-static bool finds_lights(const path *p, graze_lobe lobe) {
+static inline bool finds_lights(const path *p, graze_lobe lobe) {
     const graze_trace_settings *s = p->context->settings;
     const graze_scene *scene = p->context->scene;
     bool glossy = lobe == GRAZE_LOBE_GLOSSY || lobe == GRAZE_LOBE_TRANSMITTED_GLOSSY;
@@ -72,7 +72,7 @@ static bool finds_lights(const path *p, graze_lobe lobe) {
 #define LOOKS_ON 0.25
 
 /* How likely the path takes a lobe. One that may not go on is taken only to find lights. */
-static double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
+static inline double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance, bool goes_on, bool *ends) {
     double chance = goes_on ? survival(p, reflectance) : 0;
     *ends = chance == 0;
     if (*ends)

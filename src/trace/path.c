@@ -202,7 +202,8 @@ __attribute__((noinline)) static void hinder(path *p, vec3 point, const path_hit
 static inline __attribute__((always_inline)) bool arrive(path *p, vec3 point, int64_t surface, const vertex *v,
                                                          vec3 direction, gathering *next) {
     const path_context *context = p->context;
-    path_hit hit = path_cast(context, point, direction, GEOMETRY_FAR, surface);
+    path_hit hit;
+    path_cast_into(&hit, context, point, direction, GEOMETRY_FAR, surface);
     if (p->hindered)
         hinder(p, point, &hit);
     rgb found = hit.light >= 0 ? emission_found(p, &hit) : rgb_gray(0);

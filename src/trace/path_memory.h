@@ -39,9 +39,10 @@ typedef struct path_unmet {
 
 /* Belongs to the estimate, whose paths come one after another. */
 typedef struct path_memory {
-    bool alike;      /* all paths have the same first point */
-    gathering first; /* where they do */
-    path_memory_light lights[PATH_FEW_LIGHTS];
+    bool alike;                                /* all paths have the same first point */
+    gathering first;                           /* where they do */
+    path_memory_light lights[PATH_FEW_LIGHTS]; /* so many of them have been asked for: */
+    int light_count;
     path_unmet unmet;
     bool gleams_found;
     gleams gleams; /* as the first point sees them, where all paths have the same */
@@ -52,11 +53,16 @@ typedef struct path_memory {
 static inline void path_memory_begin(path_memory *memory, bool alike) {
     memory->alike = alike;
     memory->first.decided = memory->gleams_found = false;
-    memory->unmet.count = 0;
-    for (int i = 0; i < PATH_FEW_LIGHTS; i++) {
-        memory->lights[i].kept = false;
-        memory->lights[i].times_mixed = 0;
+    memory->unmet.count = memory->light_count = 0;
+}
+
+/* What is known of a light, which may be nothing yet. */
+static inline path_memory_light *path_memory_of_light(path_memory *memory, int light) {
+    for (; memory->light_count <= light; memory->light_count++) {
+        memory->lights[memory->light_count].kept = false;
+        memory->lights[memory->light_count].times_mixed = 0;
     }
+    return &memory->lights[light];
 }
 
 #endif

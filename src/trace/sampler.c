@@ -1,6 +1,8 @@
 /* Scrambled Sobol points: direction numbers, scrambling, and groups of coordinates. */
 #include "trace/sampler.h"
 
+#include <stddef.h>
+
 /* Binary digits are kept with the most significant one in the lowest bit, since carries and products run from low to
  * high bits, and scrambling lets each digit depend on the more significant ones. */
 
@@ -31,7 +33,7 @@ uint64_t sampler_key(uint64_t seed, uint64_t stream, uint32_t replicate) {
 }
 
 sampler sampler_start(uint64_t key, uint32_t index) {
-    return (sampler){key, index, 0};
+    return (sampler){key, index, 0, NULL};
 }
 
 static inline uint64_t reverse_bits(uint64_t x) {
@@ -123,6 +125,10 @@ static inline uint64_t sobol_third_and_fourth(uint32_t index) {
 }
 
 static inline void draw(sampler *s, int count, double *out) {
+    if (s->origin) {
+        s->key = sampler_key(s->origin->seed, s->origin->stream, 0);
+        s->origin = NULL;
+    }
     uint64_t key = mix(s->key + (s->group + UINT64_C(1)) * GROUP_STEP);
     s->group++;
     uint32_t index = shuffle(s->index, key), digits[4] = {index, 0, 0, 0};

@@ -13,17 +13,27 @@
 
 #include <stdint.h>
 
+/* What a key is made from, where no more than one point is asked for. */
+typedef struct sampler_origin {
+    uint64_t seed, stream;
+} sampler_origin;
+
 /* A value: copy it to draw the same numbers again. */
 typedef struct sampler {
     uint64_t key;
     uint32_t index;
     uint32_t group;
+    const sampler_origin *origin; /* null, or the key is made when the first number is drawn */
 } sampler;
 
 /* Different arguments give independent scramblings: `stream` is the number of the ray or pixel. */
 uint64_t sampler_key(uint64_t seed, uint64_t stream, uint32_t replicate);
 /* At the beginning of the path that is point number `index` of the sequence that `key` chooses. */
 sampler sampler_start(uint64_t key, uint32_t index);
+/* The same for the first point of the first replicate: a path that draws nothing needs no key. */
+static inline sampler sampler_start_once(const sampler_origin *origin) {
+    return (sampler){0, 0, 0, origin};
+}
 
 /* The path's next group of coordinates, each in [0,1), uniform to 53 bits. */
 double sampler_1d(sampler *);

@@ -67,16 +67,16 @@ void graze_cast(const graze_scene *scene, const graze_trace_settings *settings, 
 /* A ray as estimate_sample sees it. */
 typedef struct request {
     path_context context;
-    path_hit first;
+    const path_hit *first; /* null: a sensor's, which is at `origin` and looks in the direction */
     vec3 origin, direction;
 } request;
 
 static void sample_ray(void *user, sampler *points, path_sample *sample, estimate_luck *luck) {
     const request *r = user;
-    if (r->context.settings->quantity == GRAZE_IRRADIANCE)
-        path_irradiance(&r->context, r->origin, r->direction, points, sample);
+    if (r->first)
+        path_radiance(&r->context, r->first, points, sample);
     else
-        path_radiance(&r->context, &r->first, points, sample);
+        path_irradiance(&r->context, r->origin, r->direction, points, sample);
     *luck = sample->searching ? ESTIMATE_SEARCH : sample->noisy ? ESTIMATE_NOISY : ESTIMATE_EXACT;
 }
 
@@ -84,7 +84,8 @@ void graze_trace(const graze_scene *scene, const graze_trace_settings *settings,
                  graze_answer *answer, graze_hit *hit) {
     path_memory known;
     path_memory_begin(&known, true);
-    request r = {.context = {.scene = scene, .settings = settings, .memory = &known}, .origin = ray->origin};
+    request r = {.context = {.scene = scene, .settings = settings, .memory = &known}};
+    path_hit first;
     double limit;
     *answer = (graze_answer){.converged = 1};
     if (hit)
@@ -93,10 +94,13 @@ void graze_trace(const graze_scene *scene, const graze_trace_settings *settings,
     bool sensor = settings->quantity == GRAZE_IRRADIANCE;
     if (!describe_ray(ray, &r.direction, &limit) || (sensor && settings->part == GRAZE_MIRRORED))
         return;
-    if (!sensor) {
-        r.first = path_cast(&r.context, ray->origin, r.direction, limit, -1);
+    if (sensor) {
+        r.origin = ray->origin;
+    } else {
+        path_cast_into(&first, &r.context, ray->origin, r.direction, limit, -1);
+        r.first = &first;
         if (hit)
-            *hit = describe_hit(scene, &r.first, settings->quantity);
+            *hit = describe_hit(scene, &first, settings->quantity);
     }
     estimate(settings, stream, sample_ray, &r, answer);
 }

@@ -90,11 +90,22 @@ static void find_hidden(const answering *a, const graze_ray *ray, graze_hit *hit
     *hit = first;
 }
 
+/* What is mostly asked for: the value alone. */
+static bool answer_with_value(const answering *a, const graze_ray *ray, uint64_t number, record_buffer *out) {
+    graze_answer answer = {.converged = 1};
+    if (vec3_max_abs(ray->direction) > 0)
+        graze_trace(a->scene, &a->settings, ray, number, &answer, NULL);
+    ray_output_append_value(&a->output, out, answer.value);
+    return answer.converged;
+}
+
 bool answer_ray(const answering *a, const graze_ray *given, uint64_t number, record_buffer *out) {
     bool converged = true;
     graze_ray before = *given, *ray = &before;
     /* What lies where the ray ends is not met, as in rtrace, whatever its distance is rounded to. */
     before.limit *= 1 - 0x1p-50;
+    if (ray_output_is_value(&a->output))
+        return answer_with_value(a, ray, number, out);
     graze_hit hit = {.distance = GRAZE_FAR};
     ray_values v = {.hit = &hit, .coefficient = {1, 1, 1}, .mirrored_distance = GRAZE_FAR, .weight = 1};
     v.seen_distance = hit.distance;

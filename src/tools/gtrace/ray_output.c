@@ -252,6 +252,12 @@ void ray_output_append(const ray_output *o, record_buffer *out, const ray_values
         record_append_text(out, "\n");
 }
 
+void ray_output_append_value(const ray_output *o, record_buffer *out, graze_rgb value) {
+    append_color(o, out, value, output_color_value);
+    if (o->format == RAY_ASCII)
+        record_append_text(out, "\n");
+}
+
 void ray_output_append_tree_ray(const ray_output *o, record_buffer *out, int depth, const ray_values *v) {
     for (int i = 0; i < depth; i++)
         record_append_text(out, "\t");
