@@ -47,16 +47,16 @@ static inline uint64_t reverse_bits(uint64_t x) {
  * the node which the k digits before it lead to. Six levels have 63 nodes, to which the bits 1 to 63 of `coins` belong.
  * This returns the coins for the six digits of `digits`. */
 static inline uint64_t tree_coins(uint64_t coins, uint64_t digits) {
-    return (coins >> 1 & 1) | (coins >> (2 | (digits & 1)) & 1) << 1 | (coins >> (4 | (digits & 3)) & 1) << 2 |
-           (coins >> (8 | (digits & 7)) & 1) << 3 | (coins >> (16 | (digits & 15)) & 1) << 4 |
-           (coins >> (32 | (digits & 31)) & 1) << 5;
+    return (coins >> 1 & 1) | (coins >> ((digits & 1) + 1) & 2) | (coins >> ((digits & 3) + 2) & 4) |
+           (coins >> ((digits & 7) + 5) & 8) | (coins >> ((digits & 15) + 12) & 16) |
+           (coins >> ((digits & 31) + 27) & 32);
 }
 
 /* The same with the most significant digit in bit 5. */
 static inline uint64_t tree_coins_down(uint64_t coins, uint64_t digits) {
-    return (coins >> 1 & 1) << 5 | (coins >> (2 | digits >> 5) & 1) << 4 | (coins >> (4 | digits >> 4) & 1) << 3 |
-           (coins >> (8 | digits >> 3) & 1) << 2 | (coins >> (16 | digits >> 2) & 1) << 1 |
-           (coins >> (32 | digits >> 1) & 1);
+    return (coins << 4 & 32) | (coins << 2 >> (digits >> 5) & 16) | (coins >> ((digits >> 4) + 1) & 8) |
+           (coins >> ((digits >> 3) + 6) & 4) | (coins >> ((digits >> 2) + 15) & 2) |
+           (coins >> ((digits >> 1) + 32) & 1);
 }
 
 static inline uint64_t rotate(uint64_t x, int n) {
@@ -131,7 +131,8 @@ static inline void draw(sampler *s, int count, double *out) {
     }
     uint64_t key = mix(s->key + (s->group + UINT64_C(1)) * GROUP_STEP);
     s->group++;
-    uint32_t index = shuffle(s->index, key), digits[4] = {index, 0, 0, 0};
+    /* Where a ray has one path, nothing is asked for but the first point: with the constant that is faster. */
+    uint32_t index = s->index == 0 ? shuffle(0, key) : shuffle(s->index, key), digits[4] = {index, 0, 0, 0};
     if (count > 1)
         digits[1] = sobol_second(index);
     if (count > 2) {
