@@ -116,7 +116,8 @@ static inline rgb rgb_scale(double s, rgb a) {
     return (rgb){s * a.r, s * a.g, s * a.b};
 }
 static inline rgb rgb_power(rgb a, double exponent) {
-    return (rgb){pow(a.r, exponent), pow(a.g, exponent), pow(a.b, exponent)};
+    double r = pow(a.r, exponent);
+    return (rgb){r, a.g == a.r ? r : pow(a.g, exponent), a.b == a.r ? r : pow(a.b, exponent)};
 }
 /* a + s b */
 static inline rgb rgb_add_scaled(rgb a, double s, rgb b) {

@@ -90,8 +90,15 @@ bool geometry_intersect(const geometry *, const geometry_ray *, geometry_hit *);
  * be: as if the copy's surfaces stood in the scene themselves. */
 bool geometry_occluded(const geometry *, const geometry_ray *, int64_t target);
 
-/* The same where shapes that light passes do not count. Where there are some on the ray and it is not occluded,
- * `panes` is true: geometry_intersect finds them, one after another, up to `far` or the target. */
-bool geometry_occluded_but_for_panes(const geometry *, const geometry_ray *, int64_t target, bool *panes);
+/* What light may pass on its way. */
+typedef struct geometry_panes {
+    int count;         /* 2: more than one, or no one knows */
+    geometry_hit only; /* set where there is one */
+} geometry_panes;
+
+/* The same where shapes that light passes do not count. What of these is on the ray, if it is not occluded, goes to
+ * *panes, which may be null: where they are many geometry_intersect finds them, one after another, up to `far` or the
+ * target. */
+bool geometry_occluded_but_for_panes(const geometry *, const geometry_ray *, int64_t target, geometry_panes *panes);
 
 #endif

@@ -70,7 +70,7 @@ static bool trace(query *q) {
     return true;
 }
 
-static void describe_hit(const geometry *g, const candidate *found, geometry_hit *hit) {
+static inline void describe_hit(const geometry *g, const candidate *found, geometry_hit *hit) {
     const geometry_triangle *triangle = found->triangle;
     const geometry_tree *scene = &g->trees[0];
     if (triangle) {
@@ -89,6 +89,13 @@ static void describe_hit(const geometry *g, const candidate *found, geometry_hit
     hit->normal = shape_normal(s, hit->point);
 }
 
+static inline void set_hit(const geometry *g, const geometry_ray *ray, const candidate *found, geometry_hit *hit) {
+    hit->surface = found->surface;
+    hit->distance = found->distance;
+    hit->point = vec3_add_scaled(ray->origin, found->distance, ray->direction);
+    describe_hit(g, found, hit);
+}
+
 bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit *hit) {
     hit->surface = -1;
     if (g->empty || !is_ray(ray))
@@ -98,10 +105,7 @@ bool geometry_intersect(const geometry *g, const geometry_ray *ray, geometry_hit
     const candidate *found = trace(&q) ? visible(&q) : NULL;
     if (!found)
         return false;
-    hit->surface = found->surface;
-    hit->distance = found->distance;
-    hit->point = vec3_add_scaled(ray->origin, found->distance, ray->direction);
-    describe_hit(g, found, hit);
+    set_hit(g, ray, found, hit);
     return true;
 }
 
@@ -121,10 +125,15 @@ bool geometry_occluded(const geometry *g, const geometry_ray *ray, int64_t targe
     return is_occluded(&q, g, ray, target, false);
 }
 
-bool geometry_occluded_but_for_panes(const geometry *g, const geometry_ray *ray, int64_t target, bool *panes) {
+bool geometry_occluded_but_for_panes(const geometry *g, const geometry_ray *ray, int64_t target,
+                                     geometry_panes *panes) {
     query q;
-    q.found_pane = false;
+    q.panes = 0;
     bool occluded = is_occluded(&q, g, ray, target, true);
-    *panes = q.found_pane && !occluded;
+    if (!panes)
+        return occluded;
+    panes->count = occluded ? 0 : q.panes;
+    if (panes->count == 1)
+        set_hit(g, ray, &q.pane, &panes->only);
     return occluded;
 }

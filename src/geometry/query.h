@@ -63,8 +63,9 @@ typedef struct query {
     int64_t from, target;
     bool any; /* whether something blocks the ray is all that is asked */
     bool found_any;
-    bool passes_panes;                                          /* what light passes does not block, but */
-    bool found_pane;                                            /* this is told */
+    bool passes_panes; /* what light passes does not block, but */
+    int panes;         /* they are counted, many as 2; of one, this: */
+    candidate pane;
     const candidate *nearest, *nearest_front, *nearest_shining; /* null: none */
     candidate *next;                                            /* where the next one to be offered is put */
     candidate candidates[QUERY_CANDIDATES];                     /* these */

@@ -79,9 +79,19 @@ static bool blocks(const query *q, const candidate *c) {
     return !geometry_shines(q->geometry, q->target) || c->surface > q->target;
 }
 
+/* What is curved is met twice, and what is in a copy no candidate tells all of: either counts as many. */
+static void count_pane(query *q, const candidate *c) {
+    if (!c->triangle || (q->panes > 0 && c->surface != q->pane.surface)) {
+        q->panes = 2;
+    } else if (q->panes == 0) {
+        q->panes = 1;
+        q->pane = *c;
+    }
+}
+
 static void block(query *q, const candidate *c) {
     if (q->passes_panes && geometry_passes(q->geometry, c->surface))
-        q->found_pane = true;
+        count_pane(q, c);
     else
         q->found_any = true;
 }

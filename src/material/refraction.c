@@ -1,6 +1,8 @@
 /* What is polished: thin panes of glass, the boundaries of dielectrics, and mirrors. */
 #include "material/refraction.h"
 
+#include <stdbool.h>
+
 #include "material/lobes.h"
 
 /* What is reflected of the two polarisations. */
@@ -50,22 +52,41 @@ static double mean_reflected(fresnel_pair faces, double body) {
     return (pane_reflects(faces.across, body) + pane_reflects(faces.along, body)) / 2;
 }
 
-rgb material_glass_transmittance(const graze_material *m, double cosine) {
+/* A pane as it is seen at some angle: its faces and its body. */
+typedef struct glass_seen {
+    fresnel_pair faces;
+    rgb body;
+} glass_seen;
+
+/* False where it is seen edge-on, or from behind. */
+static bool see_glass(const graze_material *m, double cosine, glass_seen *seen) {
     double inside = cosine_inside(cosine, m->refraction);
     if (!(cosine > 0 && inside > 0))
-        return (rgb){0, 0, 0};
-    fresnel_pair faces = fresnel(cosine, inside, m->refraction);
-    rgb body = body_transmittance(m->color, inside);
-    return (rgb){mean_transmitted(faces, body.r), mean_transmitted(faces, body.g), mean_transmitted(faces, body.b)};
+        return false;
+    *seen = (glass_seen){fresnel(cosine, inside, m->refraction), body_transmittance(m->color, inside)};
+    return true;
 }
 
-static rgb glass_reflectance(const graze_material *m, double cosine) {
-    double inside = cosine_inside(cosine, m->refraction);
-    if (!(cosine > 0 && inside > 0))
-        return (rgb){1, 1, 1};
-    fresnel_pair faces = fresnel(cosine, inside, m->refraction);
-    rgb body = body_transmittance(m->color, inside);
-    return (rgb){mean_reflected(faces, body.r), mean_reflected(faces, body.g), mean_reflected(faces, body.b)};
+/* Most glass is gray: then one number says all. */
+static rgb transmitted(const glass_seen *seen) {
+    rgb body = seen->body;
+    double r = mean_transmitted(seen->faces, body.r);
+    return (rgb){r, body.g == body.r ? r : mean_transmitted(seen->faces, body.g),
+                 body.b == body.r ? r : mean_transmitted(seen->faces, body.b)};
+}
+
+static rgb reflected(const glass_seen *seen) {
+    rgb body = seen->body;
+    double r = mean_reflected(seen->faces, body.r);
+    return (rgb){r, body.g == body.r ? r : mean_reflected(seen->faces, body.g),
+                 body.b == body.r ? r : mean_reflected(seen->faces, body.b)};
+}
+
+rgb material_glass_transmittance(const graze_material *m, double cosine) {
+    glass_seen seen;
+    if (!see_glass(m, cosine, &seen))
+        return (rgb){0, 0, 0};
+    return transmitted(&seen);
 }
 
 static void set_specular_lobes(graze_surface *s) {
@@ -77,9 +98,10 @@ static void set_specular_lobes(graze_surface *s) {
 }
 
 void material_prepare_glass(graze_surface *s, const graze_material *m) {
-    double cosine = s->local_view.z;
-    s->specular = glass_reflectance(m, cosine);
-    s->transmitted_specular = material_glass_transmittance(m, cosine);
+    glass_seen seen;
+    bool is_seen = see_glass(m, s->local_view.z, &seen);
+    s->specular = is_seen ? reflected(&seen) : (rgb){1, 1, 1};
+    s->transmitted_specular = is_seen ? transmitted(&seen) : (rgb){0, 0, 0};
     s->transmitted = vec3_negate(s->view);
     set_specular_lobes(s);
 }

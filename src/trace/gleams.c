@@ -190,9 +190,8 @@ static bool is_hidden(const gleams *all, const gleams_of_ball *b, const mirrorin
                         .direction = m->to_light,
                         .far = light->source ? GEOMETRY_FAR : m->light_distance,
                         .from = b->ball->surface};
-    bool panes;
-    return geometry_occluded_but_for_panes(all->scene->geometry, &seen, b->ball->surface, &panes) ||
-           geometry_occluded_but_for_panes(all->scene->geometry, &lit, light->surface, &panes);
+    return geometry_occluded_but_for_panes(all->scene->geometry, &seen, b->ball->surface, NULL) ||
+           geometry_occluded_but_for_panes(all->scene->geometry, &lit, light->surface, NULL);
 }
 
 /* What hides the middle of a gleam may leave some of it. */

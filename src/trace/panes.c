@@ -38,14 +38,16 @@ rgb panes_transmittance(const path_context *context, const geometry_ray *ray, do
     const graze_scene *scene = context->scene;
     geometry_ray left = *ray;
     geometry_hit hit;
-    bool panes;
+    geometry_panes panes;
     if (geometry_occluded_but_for_panes(scene->geometry, ray, target, &panes))
         return rgb_gray(0);
     rgb transmittance = {1, 1, 1};
     scene_cuts_walk walk;
     double travelled = 0;
     walk.begun = false;
-    while (panes && !rgb_is_black(transmittance) && geometry_intersect(scene->geometry, &left, &hit) &&
+    if (panes.count == 1)
+        return pane_transmittance(context, &walk, &panes.only, ray->direction, length, travelled, is_proper);
+    while (panes.count > 0 && !rgb_is_black(transmittance) && geometry_intersect(scene->geometry, &left, &hit) &&
            hit.surface != target && scene_surface_passes(scene, hit.surface)) {
         transmittance = rgb_multiply(
             transmittance, pane_transmittance(context, &walk, &hit, ray->direction, length, travelled, is_proper));

@@ -66,8 +66,7 @@ void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, dou
 
 /* Whether a ray comes to the light: panes on its way let it through. */
 static bool is_clear_to(const graze_scene *scene, const geometry_ray *ray, int light) {
-    bool panes;
-    return !geometry_occluded_but_for_panes(scene->geometry, ray, scene->lights[light].surface, &panes);
+    return !geometry_occluded_but_for_panes(scene->geometry, ray, scene->lights[light].surface, NULL);
 }
 
 /* Whether light from the direction arrives at the body that a vertex belongs to: there, or else where a ray from there

@@ -622,6 +622,47 @@ static void extreme_scales(void **state) {
     }
 }
 
+/* What is told of panes on the way is what rays meet there, one after another. */
+static void panes_on_the_way(void **state) {
+    (void)state;
+    enum { PANES = 8 };
+    shape shapes[PANES];
+    dice d = {43};
+    int counts[3] = {0, 0, 0}, occluded = 0;
+    for (int i = 0; i < PANES; i++) {
+        vec3 a = roll_in_cube(&d, 1), u = roll_in_cube(&d, 1), v = roll_in_cube(&d, 1);
+        shapes[i] =
+            i == 5 ? make_sphere(a, 0.3) : quadrangle(a, vec3_add(a, u), vec3_add(vec3_add(a, u), v), vec3_add(a, v));
+        shapes[i].passes = i != 2;
+    }
+    geometry *g = build(shapes, PANES, 1);
+    for (int i = 0; i < 5000; i++) {
+        vec3 origin = roll_in_cube(&d, 1.5), way = vec3_subtract(roll_in_cube(&d, 1.5), origin);
+        geometry_ray ray = ray_from(origin, way, -1), left;
+        ray.far = vec3_length(way);
+        geometry_hit first = {.surface = -1}, hit;
+        int met = 0;
+        bool shut = false, curved = false;
+        for (left = ray; geometry_intersect(g, &left, &hit); left.origin = hit.point, left.from = hit.surface) {
+            first = met++ ? first : hit;
+            shut = shut || hit.surface == 2;
+            curved = curved || hit.surface == 5;
+            left.far -= hit.distance;
+        }
+        geometry_panes panes;
+        assert_int_equal(geometry_occluded_but_for_panes(g, &ray, -1, &panes), shut);
+        assert_int_equal(geometry_occluded_but_for_panes(g, &ray, -1, NULL), shut);
+        assert_int_equal(panes.count, shut ? 0 : curved || met > 1 ? 2 : met);
+        counts[panes.count]++;
+        occluded += shut;
+        if (panes.count == 1)
+            assert_true(panes.only.surface == first.surface && panes.only.distance == first.distance &&
+                        vec3_is_same(panes.only.point, first.point) && vec3_is_same(panes.only.normal, first.normal));
+    }
+    assert_true(counts[0] > 500 && counts[1] > 500 && counts[2] > 200 && occluded > 100);
+    geometry_destroy(g);
+}
+
 /* Large enough for the building's threads to come in; the answers must not depend on them. */
 static void threads_change_nothing(void **state) {
     (void)state;
@@ -674,6 +715,7 @@ int main(void) {
         cmocka_unit_test(far_end),
         cmocka_unit_test(rays_that_are_none_hit_nothing),
         cmocka_unit_test(extreme_scales),
+        cmocka_unit_test(panes_on_the_way),
     };
     int failed = cmocka_run_group_tests(large, set_up, tear_down);
     failed += cmocka_run_group_tests(small, set_up, tear_down);
