@@ -7,6 +7,7 @@
 #include "graze/material.h"
 #include "material/reflection.h"
 #include "scene/light_choice.h"
+#include "scene/sight_cells.h"
 
 typedef struct vertex {
     vec3 point;
@@ -46,8 +47,9 @@ typedef struct lobe_choice {
 typedef struct gathering {
     vertex vertex;
     bool decided; /* the rest is known, also to other paths that come to the vertex: */
-    bool lit;     /* all light from lights is known: */
-    rgb direct;   /* what is reflected of it, for a throughput of 1 */
+    sight_cell cell;
+    bool lit;   /* all light from lights is known: */
+    rgb direct; /* what is reflected of it, for a throughput of 1 */
     lobe_choice lobes;
     light_choice lights;
 } gathering;

@@ -105,8 +105,9 @@ static rgb reflected_whole(const path *p, const vertex *v, const scene_light *li
     return rgb_multiply(reflectance, light->radiance);
 }
 
-static void settle(path *p, int light, rgb reflected) {
-    p->known.settled |= 1u << light;
+/* Lights, a bit for each. */
+static void settle(path *p, unsigned lights, rgb reflected) {
+    p->known.settled |= lights;
     p->radiance = rgb_add(p->radiance, rgb_multiply(p->throughput, reflected));
 }
 
@@ -120,13 +121,12 @@ static bool is_plain(const path *p, const vertex *v) {
 
 _Static_assert((int)SIGHT_CELLS_LIGHTS_MOST <= PATH_FEW_LIGHTS, "all lights of scenes with cells can be settled");
 
-bool known_light_from_cells(const path *p, const vertex *v, rgb *reflected) {
+bool known_light_from_cells(const path *p, const vertex *v, sight_cell cell, rgb *reflected) {
     const graze_scene *scene = p->context->scene;
     bool seen[SIGHT_CELLS_LIGHTS_MOST];
     int count = (int)scene->light_count;
-    if (!is_plain(p, v))
+    if (!cell.grid || !is_plain(p, v))
         return false;
-    const sight_cell cell = sight_cells_at(scene, v->surface, v->point);
     for (int i = 0; i < count; i++) {
         geometry_visibility found = sight_cell_sees(scene, cell, i);
         if (found == GEOMETRY_MIXED || scene->light_tree.group_of[i] < 0)
@@ -146,9 +146,8 @@ bool known_light_from_cells(const path *p, const vertex *v, rgb *reflected) {
 }
 
 void known_light_settle_all(path *p, rgb reflected) {
-    p->known.settled = (1u << p->context->scene->light_count) - 1;
     p->integrated = p->integrated || !rgb_is_black(reflected);
-    p->radiance = rgb_add(p->radiance, rgb_multiply(p->throughput, reflected));
+    settle(p, (1u << p->context->scene->light_count) - 1, reflected);
 }
 
 /* Adds what the surface reflects of a light that is seen as a whole. For a single sample, or few of many at this
@@ -161,7 +160,7 @@ static void add_at_once(path *p, const vertex *v, int index, bool glossy) {
         !unshadowed_light_at(scene, &v->shading, v->point, index, false, &whole))
         return;
     p->integrated = true;
-    settle(p, index, reflected_whole(p, v, light, &whole, false));
+    settle(p, 1u << index, reflected_whole(p, v, light, &whole, false));
 }
 
 /* The same where all that can be known of a light is worth its time: looks for what stands between it and the vertex,
@@ -170,7 +169,7 @@ static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geome
     const scene_light *light = &p->context->scene->lights[i];
     const path_memory_light found = look_at(p, v, i, glossy, seen);
     if (found.seen == GEOMETRY_BLOCKED)
-        settle(p, i, rgb_gray(0));
+        settle(p, 1u << i, rgb_gray(0));
     if (found.seen == GEOMETRY_CLEAR)
         p->known.clear |= 1u << i;
     if (!found.integrated || !has_one_role(light)) {
@@ -181,7 +180,7 @@ static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geome
     const rgb reflected = reflected_whole(p, v, light, &found.whole, glossy);
     p->integrated = true;
     if (found.seen == GEOMETRY_CLEAR) {
-        settle(p, i, reflected);
+        settle(p, 1u << i, reflected);
         return;
     }
     p->known.controls |= 1u << i;
@@ -190,13 +189,12 @@ static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geome
     control->difference = rgb_add(control->difference, rgb_multiply(p->throughput, reflected));
 }
 
-void known_light_add(path *p, const vertex *v, const light_choice *lights) {
+void known_light_add(path *p, const vertex *v, sight_cell cell, const light_choice *lights) {
     const graze_scene *scene = p->context->scene;
     p->known = (known_lights){.shared = !path_is_at_first(p)};
     if (!light_choice_is_every_one(lights))
         return;
     bool at_once = p->scattered || p->context->settings->samples == 1;
-    const sight_cell cell = sight_cells_at(scene, v->surface, v->point);
     for (int i = 0; i < lights->every; i++) {
         if (light_expectation(lights, i) == 0)
             continue;
@@ -205,7 +203,7 @@ void known_light_add(path *p, const vertex *v, const light_choice *lights) {
         if (!at_once) {
             add_after_a_look(p, v, i, glossy, seen);
         } else if (seen == GEOMETRY_BLOCKED) {
-            settle(p, i, rgb_gray(0));
+            settle(p, 1u << i, rgb_gray(0));
         } else if (seen == GEOMETRY_CLEAR) {
             p->known.clear |= 1u << i;
             add_at_once(p, v, i, glossy);

@@ -16,15 +16,15 @@ bool known_light_is_clear(const path *, int light);
 /* Whether the lights are all that could be reflected at the vertex, and all of them are settled or shine elsewhere. */
 bool known_light_is_all(const path *, const vertex *, const light_choice *);
 
-/* Whether the cells of a surface tell of all lights whether they are seen, and diffuse reflection is all there is: then
+/* Whether the cell of a surface tells of all lights whether they are seen, and diffuse reflection is all there is: then
  * no light is to be chosen or sampled, and this is what the vertex reflects of them for a throughput of 1. */
-bool known_light_from_cells(const path *, const vertex *, rgb *reflected);
+bool known_light_from_cells(const path *, const vertex *, sight_cell, rgb *reflected);
 
 /* Adds that, and settles all lights. */
 void known_light_settle_all(path *, rgb reflected);
 
 /* Adds what is known of the lights' light at a vertex, and remembers of which. */
-void known_light_add(path *, const vertex *, const light_choice *);
+void known_light_add(path *, const vertex *, sight_cell, const light_choice *);
 
 /* Takes what a sample finds, or would find without shadows, of a light that is known, and how bright it really is. */
 void known_light_subtract(path *, int light, rgb found, double lit);

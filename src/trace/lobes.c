@@ -306,6 +306,43 @@ __attribute__((noinline)) static bool draw_by_gleams(path *p, const vertex *v, c
     return true;
 }
 
+/* Draws a direction of a lobe that goes on, or `ends`; its weight is to be multiplied by *scale. False: none. */
+static inline __attribute__((always_inline)) bool draw_lobe(path *p, const vertex *v, graze_lobe lobe, bool ends,
+                                                            const double random[4], graze_surface_sample *sample,
+                                                            double *scale) {
+    if (p->context->scene->balls && lobe == GRAZE_LOBE_DIFFUSE && !ends && p->ambient_depth < GLEAM_BOUNCES) {
+        if (!draw_by_gleams(p, v, random, sample, scale))
+            return false;
+    } else {
+        *sample = draw_direction(p, &v->shading, lobe, random);
+    }
+    /* The function is found by diffuse samples. */
+    if (v->function && (lobe == GRAZE_LOBE_DIFFUSE || lobe == GRAZE_LOBE_TRANSMITTED_DIFFUSE))
+        sample->weight = rgb_add_scaled(sample->weight, PI, vertex_function_value(v, sample->direction));
+    return true;
+}
+
+/* Of a surface that leans: false where the direction leads into it, or not into it. A mirror reflects by the surface's
+ * own normal then, as Radiance's. */
+static bool keep_to_side(const vertex *v, graze_lobe lobe, bool below, vec3 *direction) {
+    if ((vec3_dot(*direction, v->normal) <= 0) == below)
+        return true;
+    if (lobe != GRAZE_LOBE_MIRROR)
+        return false;
+    *direction = vec3_add_scaled(vec3_negate(v->shading.view), 2 * vec3_dot(v->shading.view, v->normal), v->normal);
+    return true;
+}
+
+/* The path has been reflected, or transmitted, by the lobe. */
+static inline void count_scattering(path *p, graze_lobe lobe, bool diffuse) {
+    if (diffuse && p->indirect_known && p->depth == 0 && p->context->scene->has_refraction)
+        p->wanted = WANTED_BENT;
+    p->depth++;
+    p->ambient_depth += diffuse;
+    p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;
+    p->searching = p->searching || is_search(p, lobe);
+}
+
 /* Goes on with one of the lobes of a side, by random[3], which is below the sum of their chances or means the end.
  * Where there is nothing but one side the other costs nothing. */
 static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v, const light_choice *lights,
@@ -324,27 +361,15 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
     bool ends = diffuse ? choice->diffuse_ends : choice->specular_ends;
     double chance = diffuse ? choice->diffuse : choice->specular, scale = 1 / chance;
     graze_surface_sample sample;
-    if (p->context->scene->balls && diffuse && !below && !ends && p->ambient_depth < GLEAM_BOUNCES) {
-        if (!draw_by_gleams(p, v, random, &sample, &scale))
-            return false;
-    } else {
-        sample = draw_direction(p, &v->shading, lobe, random);
-    }
-    /* The function is found by diffuse samples. */
-    if (v->function && diffuse)
-        sample.weight = rgb_add_scaled(sample.weight, PI, vertex_function_value(v, sample.direction));
+    if (!draw_lobe(p, v, lobe, ends, random, &sample, &scale))
+        return false;
     /* The weight of a diffuse sample is its reflectance: for `light`s that of the diffuse part alone. */
     rgb indirect = !diffuse ? sample.weight : below ? v->transmitted_ambient : v->ambient;
     rgb onward = ends ? rgb_gray(0) : indirect;
     if (rgb_is_black(sample.weight) && rgb_is_black(onward))
         return false;
-    if (v->leans && (vec3_dot(sample.direction, v->normal) <= 0) != below) {
-        /* Into the surface, or not into it: a mirror reflects by the surface's own normal then, as Radiance's. */
-        if (lobe != GRAZE_LOBE_MIRROR)
-            return false;
-        sample.direction =
-            vec3_add_scaled(vec3_negate(v->shading.view), 2 * vec3_dot(v->shading.view, v->normal), v->normal);
-    }
+    if (v->leans && !keep_to_side(v, lobe, below, &sample.direction))
+        return false;
     bool gloss_is_ambient = below ? v->transmitted_gloss_is_ambient : v->gloss_is_ambient;
     bool ambient = diffuse ? path_bounces_left(p) : !gloss_is_ambient;
     p->last = (scattering){
@@ -363,12 +388,7 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
         return false;
     if (below)
         go_below(p, v);
-    if (diffuse && p->indirect_known && p->depth == 0 && p->context->scene->has_refraction)
-        p->wanted = WANTED_BENT;
-    p->depth++;
-    p->ambient_depth += diffuse;
-    p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;
-    p->searching = p->searching || is_search(p, lobe);
+    count_scattering(p, lobe, diffuse);
     *direction = sample.direction;
     return true;
 }

@@ -157,7 +157,8 @@ static void decide(const path *p, gathering *here) {
     const vertex *v = &here->vertex;
     const bool nothing_between = !p->context->observer && !is_veiled(p) && (p->scattered || path_is_at_first(p));
     here->lobes = lobes_choose(p, v);
-    here->lit = nothing_between && asks_for_lights(p) && known_light_from_cells(p, v, &here->direct);
+    here->cell = sight_cells_at(p->context->scene, v->surface, v->point);
+    here->lit = nothing_between && asks_for_lights(p) && known_light_from_cells(p, v, here->cell, &here->direct);
     if (here->lit)
         light_choice_none(&here->lights);
     else
@@ -167,6 +168,7 @@ static void decide(const path *p, gathering *here) {
 /* The same for both sides of a surface that transmits. */
 static void decide_for_both(const path *p, gathering *here, other_side *beyond) {
     here->lit = false;
+    here->cell = sight_cells_at(p->context->scene, here->vertex.surface, here->vertex.point);
     lobes_choose_both(p, &here->vertex, &here->lobes, &beyond->lobes);
     direct_light_prepare(p, &here->vertex, &here->lights);
     direct_light_prepare_below(p, &here->vertex, beyond);
@@ -260,7 +262,7 @@ static void walk(path *p, gathering *here, const path_branch *branch, path_branc
             known_light_settle_all(p, here->direct);
         } else if (light_choice_is_possible(&here->lights) && asks_for_lights(p)) {
             if (!context->observer && !is_veiled(p))
-                known_light_add(p, v, &here->lights);
+                known_light_add(p, v, here->cell, &here->lights);
             if (!p->scattered && !path_is_at_first(p) && !p->unmet && !context->observer)
                 unmet_light_expect(p, here);
             direct_light_add(p, v, &here->lights, &here->lobes);
