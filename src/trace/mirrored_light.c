@@ -196,7 +196,8 @@ void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
         return;
     const virtual_lights all = virtual_lights_of(p->context, v, p->ambient_depth);
     virtual_lights_survey found;
-    virtual_lights_look(&found, all, p->scattered);
+    p->worth = virtual_lights_worth_at(p, v);
+    virtual_lights_look(&found, all, &p->worth);
     if (found.count > 0)
         add_chosen(p, &all, &found, choice);
 }
@@ -215,7 +216,7 @@ static double density_of(const path *p, const path_hit *hit) {
     if (!found)
         return 0;
     virtual_lights_survey among;
-    virtual_lights_look(&among, all, !p->last.first);
+    virtual_lights_look(&among, all, &p->worth);
     double expectation = virtual_lights_expectation(&among, &l) * virtual_light_chance(&all, &l, hit->light);
     return expectation == 0
                ? 0

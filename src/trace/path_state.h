@@ -62,6 +62,13 @@ typedef struct path_branch {
     int depth, passages;
 } path_branch;
 
+/* How often lights in mirrors and panes are sampled at a vertex (trace/virtual_lights.h). */
+typedef struct virtual_lights_worth {
+    double faint; /* for each part of their light that is reflected */
+    double dim;   /* where there is no other light, */
+    double rival; /* of which there is so much, in units of their weights */
+} virtual_lights_worth;
+
 enum { PATH_BRANCHES = 8 };
 
 typedef struct path_branches {
@@ -104,6 +111,7 @@ typedef struct path {
     path_unmet_at *unmet; /* what the path, or its branch, has begun to look for; null: nothing */
     rgb before;           /* the radiance then */
     path_rare rare;
+    virtual_lights_worth worth; /* at the last vertex at which lights were looked for in mirrors */
 } path;
 
 /* Whether the path is where all paths of its ray come first. */

@@ -73,21 +73,37 @@ bool virtual_lights_next(virtual_lights *all, virtual_light *l) {
 #define WORTH_FIRST 4.0
 #define WORTH_LATER 0.5
 
-static double worth(const virtual_light *l, bool later) {
-    return fmin((later ? WORTH_LATER : WORTH_FIRST) * l->sight.reflects, 1);
+/* But where a later point has not much else, such as a ceiling above a table of glass, few of the paths that lead there
+ * would have all of the light that they find, and few of an estimate's samples might be none of these. What counts is
+ * what has been found since the path was scattered. */
+virtual_lights_worth virtual_lights_worth_at(const path *p, const vertex *v) {
+    if (!p->scattered)
+        return (virtual_lights_worth){.faint = WORTH_FIRST};
+    const rgb reflectance = rgb_add(v->ambient, v->shading.specular);
+    const double found = rgb_brightness(rgb_add_scaled(p->radiance, -1, p->direct));
+    const double reflected = rgb_brightness(rgb_multiply(p->throughput, reflectance));
+    return (virtual_lights_worth){
+        .faint = WORTH_LATER, .dim = fmin(rgb_max(p->throughput), 1), .rival = double_share(fmax(found, 0), reflected)};
 }
 
-void virtual_lights_look(virtual_lights_survey *found, virtual_lights all, bool later) {
+static double worth_of(const virtual_light *l, const virtual_lights_worth *worth) {
+    double often = worth->faint * l->sight.reflects;
+    if (l->light >= 0 && worth->dim > 0)
+        often = fmax(often, worth->dim * l->weight / (l->weight + worth->rival));
+    return fmin(often, 1);
+}
+
+void virtual_lights_look(virtual_lights_survey *found, virtual_lights all, const virtual_lights_worth *worth) {
     virtual_light l;
     found->count = 0;
     found->sum = found->often = 0;
-    found->later = later;
+    found->worth = *worth;
     while (virtual_lights_next(&all, &l)) {
         if (found->count < VIRTUAL_LIGHTS_KEPT)
             found->kept[found->count] = l;
         found->count++;
         found->sum += l.weight;
-        found->often += worth(&l, later);
+        found->often += worth_of(&l, worth);
     }
 }
 
@@ -100,7 +116,7 @@ bool virtual_lights_draw_lots(const virtual_lights_survey *all) {
 }
 
 double virtual_lights_expectation(const virtual_lights_survey *all, const virtual_light *l) {
-    return all->often <= MOST ? worth(l, all->later) : CHOSEN * l->weight / all->sum;
+    return all->often <= MOST ? worth_of(l, &all->worth) : CHOSEN * l->weight / all->sum;
 }
 
 /* Of many lights, as the vertex's image sees them. */

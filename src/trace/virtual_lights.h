@@ -36,11 +36,14 @@ enum { VIRTUAL_LIGHTS_KEPT = 8 };
 typedef struct virtual_lights_survey {
     int count;
     double sum, often;
-    bool later; /* the path had been scattered before */
+    virtual_lights_worth worth;
     virtual_light kept[VIRTUAL_LIGHTS_KEPT];
 } virtual_lights_survey;
 
-void virtual_lights_look(virtual_lights_survey *, virtual_lights, bool later);
+void virtual_lights_look(virtual_lights_survey *, virtual_lights, const virtual_lights_worth *);
+
+/* What they are worth at a vertex that the path has come to, where other lights have been sampled. */
+virtual_lights_worth virtual_lights_worth_at(const path *, const vertex *);
 
 /* Whether that is less or more than once for each, so that it is decided by lot. */
 bool virtual_lights_draw_lots(const virtual_lights_survey *);

@@ -150,6 +150,33 @@ static void intervals_cover_what_panes_reflect(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* A lamp over a table of glass, which alone lights the ceiling: a few of the paths that a sensor's diffuse reflections
+ * lead there have most of what differs between answers. */
+static void intervals_cover_what_panes_reflect_to_a_bounce(void **state) {
+    (void)state;
+    graze_scene *scene =
+        load_scene("void plastic w 0 0 5 .7 .7 .7 0 0 void plastic d 0 0 5 .25 .25 .25 0 0\n"
+                   "d polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
+                   "w polygon ceiling 0 0 12 0 0 2.7 0 5 2.7 4 5 2.7 4 0 2.7\n"
+                   "w polygon left 0 0 12 0 0 0 0 5 0 0 5 2.7 0 0 2.7\n"
+                   "w polygon right 0 0 12 4 0 0 4 0 2.7 4 5 2.7 4 5 0\n"
+                   "w polygon end 0 0 12 0 5 0 4 5 0 4 5 2.7 0 5 2.7\n"
+                   "void glow g 0 0 4 25 25 25 0 void glass c 0 0 3 .8 .8 .8\n"
+                   "g polygon lamp 0 0 12 1.35 1.25 1.7 1.35 1.55 1.7 1.65 1.55 1.7 1.65 1.25 1.7\n"
+                   "c polygon table 0 0 12 .8 .8 .75 2.2 .8 .75 2.2 2 .75 .8 2 .75\n");
+    graze_trace_settings s = graze_trace_defaults();
+    const graze_ray ray = {.origin = {0, 1.1, 1.03}, .direction = {1, 0, 0}};
+    enum { TIMES = 1000 };
+    s.quantity = GRAZE_IRRADIANCE;
+    s.ambient_bounces = 2;
+    s.error = 0.01;
+    const graze_answer truth = truth_of(scene, s, &ray, 1u << 17, TIMES);
+    const int covered = count_covering(scene, &s, &ray, &truth, TIMES);
+    printf("# %.1f%% covered; truth %g +- %g\n", 100.0 * covered / TIMES, truth.value.g, truth.standard_error.g);
+    assert_true(covered >= 0.94 * TIMES && covered <= 0.985 * TIMES);
+    graze_scene_destroy(scene);
+}
+
 /* What a translucent pane spreads a little of a lamp's light is a peak to the few paths that a diffuse reflection leads
  * into it. */
 static void intervals_cover_what_shines_through(void **state) {
@@ -301,6 +328,7 @@ int main(void) {
                                        cmocka_unit_test(intervals_cover_a_caustic_below_glass),
                                        cmocka_unit_test(what_bent_panes_reflect_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_panes_reflect),
+                                       cmocka_unit_test(intervals_cover_what_panes_reflect_to_a_bounce),
                                        cmocka_unit_test(what_is_not_met_is_in_the_error),
                                        cmocka_unit_test(what_mirrors_may_show_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_shines_through),
