@@ -189,7 +189,7 @@ static double distance_to_side(vec3 a, vec3 b, vec3 point) {
     return vec3_length(vec3_add_scaled(from, -fmin(fmax(along, 0), 1), side));
 }
 
-double shape_flat_outline(const shape *s, vec3 point) {
+double shape_outline_distance(const shape *s, vec3 point) {
     if (s->kind != SHAPE_POLYGON) {
         double radius = vec3_length(vec3_subtract(point, s->ring.center));
         return fmin(fabs(radius - s->ring.r1), s->ring.r0 > 0 ? fabs(radius - s->ring.r0) : INFINITY);

@@ -21,7 +21,7 @@ bool shape_front_crossing(const shape *, vec3 origin, vec3 direction, double *di
 /* Whether a flat shape is at a point in its plane. */
 bool shape_flat_contains(const shape *, vec3 point);
 
-/* How far a point in its plane is from its outline. */
-double shape_flat_outline(const shape *, vec3 point);
+/* How far a point in a flat shape's plane is from its outline. */
+double shape_outline_distance(const shape *, vec3 point);
 
 #endif

@@ -19,8 +19,9 @@ static bool is_of_material(const collection *c, const scene_surface *s) {
     return s->material == c->material;
 }
 
-static bool is_copy_of(const collection *c, const scene_copy *copy) {
-    return copy->replaces ? is_of_material(c, &copy->surface) : c->holds[copy->part];
+static bool is_copy_of(const collection *c, const scene_part *part, size_t copy) {
+    const geometry_placement *placement = &part->placements[copy];
+    return placement->replaces ? is_of_material(c, &part->replacing[copy]) : c->holds[placement->group];
 }
 
 /* Parts are behind those that hold copies of them. Gives how many copies there are in parts, and their surfaces of the
@@ -34,7 +35,7 @@ static void find_holders(collection *c, size_t *copies, size_t *surfaces) {
             *surfaces += is_of_material(c, &part->surfaces[k]);
         c->holds[i] = *surfaces > before;
         for (size_t k = 0; k < part->copy_count && !c->holds[i]; k++)
-            c->holds[i] = is_copy_of(c, &part->copies[k]);
+            c->holds[i] = is_copy_of(c, part, k);
         *copies += part->copy_count;
     }
 }
@@ -51,14 +52,13 @@ static void add_shapes(collection *c, geometry_group *group, const scene_part *p
 static void add_copies(collection *c, geometry_group *group, const scene_part *part, bool all) {
     group->placements = c->placements;
     for (size_t k = 0; k < part->copy_count; k++) {
-        const scene_copy *copy = &part->copies[k];
-        if (!all && !is_copy_of(c, copy))
+        const geometry_placement *copy = &part->placements[k];
+        if (!all && !is_copy_of(c, part, k))
             continue;
         const bool whole = all || copy->replaces;
-        const int of = copy->part + (whole ? (int)c->scene->part_count : 0);
+        const int of = copy->group + (whole ? (int)c->scene->part_count : 0);
         c->placed[of] = true;
-        *c->placements++ =
-            (geometry_placement){.group = of, .transform = part->placements[k].transform, .replaces = whole};
+        *c->placements++ = (geometry_placement){.group = of, .transform = copy->transform, .replaces = whole};
     }
     group->placement_count = (size_t)(c->placements - group->placements);
 }

@@ -58,14 +58,14 @@ static census census_of(graze_scene *scene, const census *parts, int number) {
     for (size_t i = 0; i < part->surface_count; i++)
         count_surface(scene, part, &part->surfaces[i], &c, 1);
     for (size_t i = 0; i < part->copy_count; i++) {
-        const scene_copy *copy = &part->copies[i];
-        const census *in = &parts[copy->part];
+        const geometry_placement *copy = &part->placements[i];
+        const census *in = &parts[copy->group];
         const size_t most = (size_t)(in->surfaces < (int64_t)MOST_LIGHTS ? in->surfaces : (int64_t)MOST_LIGHTS + 1);
         if (in->surfaces > INT64_MAX - c.surfaces)
             c = (census){.surfaces = INT64_MAX - in->surfaces, .lights = MOST_LIGHTS + 1};
         c.surfaces += in->surfaces;
         if (copy->replaces)
-            count_surface(scene, &scene->parts[copy->part], &copy->surface, &c, most);
+            count_surface(scene, &scene->parts[copy->group], &part->replacing[i], &c, most);
         else
             count_lights(&c, in->lights);
     }
@@ -135,18 +135,18 @@ static void add_copies(adding *a, int number, const stand *at, int64_t first) {
     const graze_scene *scene = a->builder->scene;
     const scene_part *part = &scene->parts[number];
     for (size_t i = 0; i < part->copy_count; i++) {
-        const scene_copy *copy = &part->copies[i];
-        const rad_transform *inner = &part->placements[i].transform;
+        const geometry_placement *copy = &part->placements[i];
+        const rad_transform *inner = &copy->transform;
         rad_transform whole = at->transform ? rad_transform_then(inner, at->transform) : *inner;
         stand there = {&whole, at->light == OWN_LIGHTS ? &whole : at->frame, at->light};
         if (at->light == OWN_LIGHTS && copy->replaces) {
-            bool sampled = can_be_sampled(scene, &scene->parts[copy->part], &copy->surface);
+            bool sampled = can_be_sampled(scene, &scene->parts[copy->group], &part->replacing[i]);
             there.frame = at->transform;
-            there.light = sampled ? copy->surface.light : -1;
+            there.light = sampled ? part->replacing[i].light : -1;
         }
         if (there.light != -1)
-            add_part(a, copy->part, &there, first);
-        first += a->parts[copy->part].surfaces;
+            add_part(a, copy->group, &there, first);
+        first += a->parts[copy->group].surfaces;
     }
 }
 
@@ -176,8 +176,8 @@ static void renumber(graze_scene *scene, int from, int by) {
             if (part->surfaces[i].light >= from)
                 part->surfaces[i].light += by;
         for (size_t i = 0; i < part->copy_count; i++)
-            if (part->copies[i].surface.light >= from)
-                part->copies[i].surface.light += by;
+            if (part->replacing[i].light >= from)
+                part->replacing[i].light += by;
     }
 }
 

@@ -126,36 +126,35 @@ static bool lacks_materials(const rad_mesh *mesh) {
 }
 
 /* An instance's or mesh's own modifier, for all that is in it. */
-static void replace_materials(scene_builder *b, scene_copy *copy, geometry_placement *placement, int primitive,
+static void replace_materials(scene_builder *b, geometry_placement *copy, scene_surface *replacing, int primitive,
                               const shape *any, bool in_scene) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[primitive];
     int material = scene_material_of_surface(b, p);
-    copy->replaces = placement->replaces = true;
+    copy->replaces = true;
     if (material < 0)
         return;
     const scene_material *m = &scene->materials[material];
-    placement->shines = scene_material_emits(m);
-    placement->passes = scene_material_is_pane(scene, m);
+    copy->shines = scene_material_emits(m);
+    copy->passes = scene_material_is_pane(scene, m);
     if (in_scene && scene_material_emits(m) && !rgb_is_black(m->light.radiance) &&
         !(m->light.glow && m->light.glow_radius <= 0))
         scene_fail(b, rad_primitive_error(b->report, p, "%s cannot be lights: its modifier is one",
                                           p->type == RAD_MESH ? "meshes" : "instances"));
     else
-        copy->surface = make_surface(b, primitive, material, any, p);
+        *replacing = make_surface(b, primitive, material, any, p);
 }
 
 static void add_copy(scene_builder *b, size_t number, scene_part *part, const rad_copy *from) {
     graze_scene *scene = b->scene;
     const rad_primitive *p = &scene->primitives[from->primitive];
     const rad_part *of = &rad_scene_parts(scene->description, &(size_t){0})[from->part];
-    scene_copy *copy = &part->copies[part->copy_count];
-    geometry_placement *placement = &part->placements[part->copy_count++];
-    *placement = (geometry_placement){.group = from->part, .transform = from->transform};
-    *copy = (scene_copy){.part = from->part};
+    size_t index = part->copy_count++;
+    geometry_placement *copy = &part->placements[index];
+    *copy = (geometry_placement){.group = from->part, .transform = from->transform};
     scene_part *copied = &scene->parts[from->part];
     if (p->modifier != RAD_VOID)
-        replace_materials(b, copy, placement, from->primitive, part->shapes, number == 0);
+        replace_materials(b, copy, &part->replacing[index], from->primitive, part->shapes, number == 0);
     else if (of->mesh && !copied->own_materials && lacks_materials(of->mesh))
         scene_fail(b, rad_primitive_error(
                           b->report, p, "its modifier is void, but \"%s\" has triangles without a material", of->path));
@@ -167,8 +166,8 @@ static void add_copies_of_part(scene_builder *b, size_t number, const rad_part *
     scene_part *part = &b->scene->parts[number];
     const rad_copy *copies = rad_scene_copies(b->scene->description);
     part->placements = calloc(from->copies + 1, sizeof *part->placements);
-    part->copies = calloc(from->copies + 1, sizeof *part->copies);
-    if (!part->placements || !part->copies) {
+    part->replacing = calloc(from->copies + 1, sizeof *part->replacing);
+    if (!part->placements || !part->replacing) {
         scene_fail(b, report_out_of_memory(b->report));
         return;
     }

@@ -60,11 +60,11 @@ static bool let_pass(const graze_scene *scene, const scene_surface *surfaces, sh
 static bool let_pass_copies(const graze_scene *scene, const scene_part *part, wanted w) {
     bool dark = true;
     for (size_t i = 0; i < part->copy_count; i++) {
-        const scene_copy *copy = &part->copies[i];
-        if (!copy->replaces || !is_wanted(scene, &copy->surface, w))
+        geometry_placement *copy = &part->placements[i];
+        if (!copy->replaces || !is_wanted(scene, &part->replacing[i], w))
             continue;
-        dark = dark && copy->surface.light < 0;
-        part->placements[i].passes = true;
+        dark = dark && part->replacing[i].light < 0;
+        copy->passes = true;
     }
     return dark;
 }

@@ -151,6 +151,7 @@ static void keep(graze_scene *scene, const draft *drafts, size_t count) {
         scene_mirror *m = &scene->mirrors[scene->mirror_count - 1];
         enclose(m, &d->mirror);
         m->count++;
+        scene->mirror_of[d->surface] = (int)(m - scene->mirrors);
     }
 }
 
@@ -173,7 +174,8 @@ graze_status scene_mirrors_make(graze_scene *scene, const graze_report *report) 
         return GRAZE_OK;
     draft *drafts = malloc(count * sizeof *drafts);
     scene->mirrors = malloc(count * sizeof *scene->mirrors);
-    if (!drafts || !scene->mirrors) {
+    scene->mirror_of = malloc(scene->surface_count * sizeof *scene->mirror_of);
+    if (!drafts || !scene->mirrors || !scene->mirror_of) {
         free(drafts);
         return report_out_of_memory(report);
     }
@@ -265,7 +267,7 @@ bool scene_mirror_shows_part(const graze_scene *scene, const scene_mirror_sight 
     double reach = way * sine / lowest * SLACK;
     vec3 at = vec3_add_scaled(s->image, way, axis);
     for (int i = s->mirror->first; i < s->mirror->first + s->mirror->count; i++)
-        if (shape_flat_outline(&scene->shapes[scene->mirror_surfaces[i]], at) <= reach)
+        if (shape_outline_distance(&scene->shapes[scene->mirror_surfaces[i]], at) <= reach)
             return true;
     return false;
 }
@@ -275,12 +277,4 @@ int scene_mirror_at(const graze_scene *scene, const scene_mirror *m, vec3 point)
         if (shape_flat_contains(&scene->shapes[scene->mirror_surfaces[i]], point))
             return scene->mirror_surfaces[i];
     return -1;
-}
-
-const scene_mirror *scene_mirror_of(const graze_scene *scene, int surface) {
-    for (size_t i = 0; i < scene->mirror_count; i++)
-        for (int k = 0; k < scene->mirrors[i].count; k++)
-            if (scene->mirror_surfaces[scene->mirrors[i].first + k] == surface)
-                return &scene->mirrors[i];
-    return NULL;
 }

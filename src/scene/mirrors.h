@@ -54,7 +54,9 @@ bool scene_mirror_shows_part(const graze_scene *, const scene_mirror_sight *, co
 /* The surface that the mirror is at a point in its plane; -1: there is none. */
 int scene_mirror_at(const graze_scene *, const scene_mirror *, vec3 point);
 
-/* The mirror that a surface is of; null: it is of none. */
-const scene_mirror *scene_mirror_of(const graze_scene *, int surface);
+/* The mirror that a surface is of which `mirrors`. */
+static inline const scene_mirror *scene_mirror_of(const graze_scene *scene, int surface) {
+    return &scene->mirrors[scene->mirror_of[surface]];
+}
 
 #endif

@@ -319,12 +319,13 @@ void graze_scene_destroy(graze_scene *scene) {
             free(part->surfaces);
         }
         free(part->placements);
-        free(part->copies);
+        free(part->replacing);
     }
     free(scene->parts);
     free(scene->lights);
     free(scene->mirror_surfaces);
     free(scene->mirrors);
+    free(scene->mirror_of);
     free(scene->mirrored_lights);
     free(scene->materials);
     free(scene->surfaces);

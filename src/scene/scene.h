@@ -111,20 +111,13 @@ typedef struct scene_surface {
     unsigned short cells; /* index and 1 of its cells (scene/sight_cells.h); 0: it has none */
 } scene_surface;
 
-/* An instance or a mesh in a part. */
-typedef struct scene_copy {
-    int part;              /* that it is a copy of */
-    bool replaces;         /* its own modifier stands for all modifiers in it: all its surfaces are */
-    scene_surface surface; /* this */
-} scene_copy;
-
 /* The scene itself, or what a file holds that instances or meshes name. */
 typedef struct scene_part {
     shape *shapes;
     scene_surface *surfaces; /* surface_count of them, as of the shapes */
     size_t surface_count;
-    geometry_placement *placements;
-    scene_copy *copies; /* copy_count of them, as of the placements */
+    geometry_placement *placements; /* copy_count of them: its instances and meshes, by the parts they are of */
+    scene_surface *replacing;       /* as many: of those that replace, by a modifier of their own, all their surfaces */
     size_t copy_count;
     const rad_mesh *mesh; /* or null; its triangles are the surfaces, in their order */
     bool own_materials;   /* some copy of the mesh has no modifier of its own */
@@ -147,6 +140,7 @@ struct graze_scene {
     int *mirror_surfaces;          /* mirror_surface_count of them, that lights are sampled in */
     size_t mirror_surface_count;
     struct scene_mirror *mirrors; /* (scene/mirrors.h) which they make up */
+    int *mirror_of;               /* by surface: the index of the mirror that it is of; of others not set */
     size_t mirror_count;
     struct scene_mirrored_light *mirrored_lights; /* where lights are few; else null */
     bool has_panes;                               /* surfaces that light goes straight through */

@@ -19,10 +19,10 @@ static int copied_light(const graze_scene *scene, int64_t number, int seen) {
 static scene_surface copied_surface(const graze_scene *scene, int64_t number) {
     int part = 0, copy;
     while ((copy = geometry_descend(scene->geometry, part, &number)) >= 0) {
-        const scene_copy *c = &scene->parts[part].copies[copy];
-        if (c->replaces)
-            return c->surface;
-        part = c->part;
+        const scene_part *p = &scene->parts[part];
+        if (p->placements[copy].replaces)
+            return p->replacing[copy];
+        part = p->placements[copy].group;
     }
     return scene->parts[part].surfaces[number];
 }
@@ -40,13 +40,12 @@ bool scene_material_is_moved(const graze_scene *scene, int64_t number, rad_trans
     if (number < (int64_t)scene->surface_count)
         return false;
     while ((copy = geometry_descend(scene->geometry, part, &number)) >= 0) {
-        const scene_part *p = &scene->parts[part];
-        if (p->copies[copy].replaces)
+        const geometry_placement *placement = &scene->parts[part].placements[copy];
+        if (placement->replaces)
             return moved;
-        const rad_transform *inner = &p->placements[copy].transform;
-        *transform = moved ? rad_transform_then(inner, transform) : *inner;
+        *transform = moved ? rad_transform_then(&placement->transform, transform) : placement->transform;
         moved = true;
-        part = p->copies[copy].part;
+        part = placement->group;
     }
     return moved;
 }

@@ -125,17 +125,18 @@ static bool leads_to(const gleams_of_ball *b, vec3 direction) {
 }
 
 /* A quarter of what a ball's cross-section gets goes evenly to all sides. So much of the light that all else sends to
- * the point that is as brightly lit varies as much as gleams do; found by trial, half and twice as much serve as well.
- */
-#define ALL_ELSE 0.2
+ * the point that is as brightly lit varies as much as gleams do, as found by trial; where gleams are known not to be
+ * hidden, directions that are drawn for them are well spent. */
+#define ALL_ELSE           0.2
+#define ALL_ELSE_WHEN_SEEN 0.05
 
 /* Gleams in proportion to the rest. */
-static double thrown_to(const scene_ball *ball, vec3 to_middle, double square, vec3 normal) {
+static double thrown_to(const scene_ball *ball, vec3 to_middle, double square, vec3 normal, double all_else) {
     double distance = sqrt(square), seen = ball->radius / (2 * distance - ball->radius);
     double height = vec3_dot(to_middle, normal), least = 0.1 * ball->radius;
     if (height <= -ball->radius)
         return 0;
-    return ball->thrown * seen * seen * fmax(height, least) / (ALL_ELSE * distance);
+    return ball->thrown * seen * seen * fmax(height, least) / (all_else * distance);
 }
 
 /* A ball that makes less of the light is met by luck. */
@@ -143,7 +144,7 @@ static double thrown_to(const scene_ball *ball, vec3 to_middle, double square, v
 /* The surface of a ball does not see its own gleams. */
 #define LEAST_TANGENT 1e-6
 
-static void expect(gleams *all, const graze_scene *scene, vec3 point, vec3 normal) {
+static void expect(gleams *all, const graze_scene *scene, vec3 point, vec3 normal, double all_else) {
     const scene_balls *balls = scene->balls;
     all->scene = scene;
     all->point = point;
@@ -153,7 +154,7 @@ static void expect(gleams *all, const graze_scene *scene, vec3 point, vec3 norma
         const scene_ball *ball = &balls->of[i];
         vec3 to_middle = vec3_subtract(ball->center, point);
         double square = vec3_dot(to_middle, to_middle), own = ball->radius * ball->radius, tangent = square - own;
-        double thrown = tangent > LEAST_TANGENT * own ? thrown_to(ball, to_middle, square, normal) : 0;
+        double thrown = tangent > LEAST_TANGENT * own ? thrown_to(ball, to_middle, square, normal, all_else) : 0;
         if (!(thrown >= LEAST_SHARE))
             continue;
         gleams_of_ball *b = &all->of[all->count++];
@@ -166,20 +167,19 @@ static void expect(gleams *all, const graze_scene *scene, vec3 point, vec3 norma
     }
 }
 
-/* For gleams that may be hidden not more than this part of all directions is drawn, and of those that are seen. */
-#define MOST_HIDDEN 0.3
-#define MOST_SEEN   0.5
+/* The rest needs its samples, too: where gleams are not quite what is known of them, these find it. */
+#define MOST 0.3
 
-static void divide(gleams *all, double most) {
-    double scale = fmin(1 / (1 + all->share), most / all->share);
+static void divide(gleams *all) {
+    double scale = fmin(1 / (1 + all->share), MOST / all->share);
     for (int i = 0; i < all->count; i++)
         all->of[i].share *= scale;
     all->share *= scale;
 }
 
 void gleams_expect(gleams *all, const graze_scene *scene, vec3 point, vec3 normal) {
-    expect(all, scene, point, normal);
-    divide(all, MOST_HIDDEN);
+    expect(all, scene, point, normal, ALL_ELSE);
+    divide(all);
 }
 
 static bool is_hidden(const gleams *all, const gleams_of_ball *b, const mirroring *m, const scene_ball_light *light,
@@ -226,7 +226,7 @@ static void leave_seen(const gleams *all, gleams_of_ball *b) {
 
 void gleams_look(gleams *all, const graze_scene *scene, vec3 point, vec3 normal, int64_t surface) {
     int kept = 0;
-    expect(all, scene, point, normal);
+    expect(all, scene, point, normal, ALL_ELSE_WHEN_SEEN);
     all->share = 0;
     for (int i = 0; i < all->count; i++) {
         gleams_of_ball *b = &all->of[i];
@@ -237,7 +237,7 @@ void gleams_look(gleams *all, const graze_scene *scene, vec3 point, vec3 normal,
             all->of[kept++] = *b;
     }
     all->count = kept;
-    divide(all, MOST_SEEN);
+    divide(all);
 }
 
 static double below_one(double x) {

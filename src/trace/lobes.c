@@ -65,6 +65,13 @@ static inline bool finds_lights(const path *p, graze_lobe lobe) {
  * little to the variance, and the rest of the path costs what it costs. */
 #define WORTH_FOLLOWING 0.1
 
+/* What a path carries that counts for that. One that was drawn about a gleam carries less the more often it would have
+ * been, and is worth following for that. */
+static inline double worth_following(const path *p, rgb reflectance) {
+    double carried = rgb_max(rgb_multiply(p->throughput, reflectance));
+    return p->depth == p->gleam_depth ? carried / p->gleam_weight : carried;
+}
+
 /* A lobe that matters little still gets a tenth, lest its rare samples carry huge weights. */
 #define LEAST_SHARE 0.1
 
@@ -78,7 +85,7 @@ static inline double lobe_chance(const path *p, graze_lobe lobe, rgb reflectance
     if (*ends)
         return finds_lights(p, lobe) && !rgb_is_black(reflectance) ? 1 : 0;
     if (context_samples_lights(p->context->settings) && p->depth > 0)
-        chance = fmin(chance, fmax(rgb_max(rgb_multiply(p->throughput, reflectance)) / WORTH_FOLLOWING, 0.05));
+        chance = fmin(chance, fmax(worth_following(p, reflectance) / WORTH_FOLLOWING, 0.05));
     if (p->wanted == WANTED_BENT)
         chance *= LOOKS_ON;
     return chance;
@@ -301,9 +308,12 @@ __attribute__((noinline)) static bool draw_by_gleams(path *p, const vertex *v, c
     if (toward && !gleams_turn(toward, &v->shading, turned))
         return false;
     *sample = draw_direction(p, &v->shading, GRAZE_LOBE_DIFFUSE, turned);
-    if (toward)
-        *weight *= gleams_weight(toward, sample->direction, v->shading.n);
-    return true;
+    if (!toward)
+        return true;
+    p->gleam_weight = gleams_weight(toward, sample->direction, v->shading.n);
+    p->gleam_depth = p->depth + 1;
+    *weight *= p->gleam_weight;
+    return p->gleam_weight > 0;
 }
 
 /* Draws a direction of a lobe that goes on, or `ends`; its weight is to be multiplied by *scale. False: none. */

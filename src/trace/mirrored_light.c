@@ -3,183 +3,13 @@
 #include "trace/mirrored_light.h"
 
 #include "base/angle.h"
-#include "scene/mirrors.h"
 #include "trace/appearance.h"
 #include "trace/direct_light.h"
 #include "trace/mist.h"
 #include "trace/observer.h"
 #include "trace/panes.h"
 #include "trace/unmet_light.h"
-
-/* A light in a mirror; -1: any of many. */
-typedef struct virtual_light {
-    int light;
-    double weight;
-    scene_mirror_sight sight;
-} virtual_light;
-
-/* Goes through the lights in mirrors. */
-typedef struct virtual_lights {
-    const path_context *context;
-    const vertex *vertex;
-    bool ambient; /* light that counts as ambient is looked for */
-    bool panes;   /* and what panes show */
-    size_t next;  /* mirror */
-    int light;    /* the next one in the mirror that is seen, or: */
-} virtual_lights;
-
-enum { NEXT_MIRROR = -1 };
-
-static vec3 mirror_direction(const shape_plane *p, vec3 direction) {
-    return vec3_add_scaled(direction, -2 * vec3_dot(p->normal, direction), p->normal);
-}
-
-/* Whether all its surfaces show paths what they show light samples. */
-static bool paths_see(const graze_scene *scene, const scene_mirror *m) {
-    return scene->surfaces[scene->mirror_surfaces[m->first]].mirrors;
-}
-
-/* Whether the mirror may show something to the vertex. What paths see it as without reflecting them, only light samples
- * see lights in: whatever the strategy. */
-static bool sees(const virtual_lights *all, const scene_mirror *m, scene_mirror_sight *sight) {
-    const path_context *context = all->context;
-    const graze_scene *scene = context->scene;
-    const vertex *v = all->vertex;
-    if ((m->pane && !all->panes) || (paths_see(scene, m) && !context_samples_lights(context->settings)))
-        return false;
-    return scene_mirror_see(m, v->point, v->shading.n, sight) &&
-           (sight->side > 0 || context->settings->back_faces_visible);
-}
-
-/* In panes a sky is left to paths: it is seen in them wherever they are, and mostly it is what they let through that
- * matters. All that counts as ambient is left with it, from which it cannot be told apart. */
-static bool is_left_to_paths(const graze_scene *scene, const scene_mirror *m) {
-    return m->pane && scene->has_sky;
-}
-
-/* `bounced`: how often the path had been reflected diffusely where the vertex is. What panes show lights diffuse
- * surfaces only where a path that is reflected diffusely would find it, as in Radiance. */
-static virtual_lights virtual_lights_of(const path_context *context, const vertex *v, int bounced) {
-    bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && !v->gloss_is_ambient;
-    bool matte = !v->no_ambient && bounced < context->settings->ambient_bounces;
-    return (virtual_lights){.context = context,
-                            .vertex = v,
-                            .ambient = context_samples_glows(context->settings) && (glossy || matte),
-                            .panes = glossy || matte,
-                            .light = NEXT_MIRROR};
-}
-
-/* The next one that may be seen. */
-static bool next_of(virtual_lights *all, virtual_light *l) {
-    const graze_scene *scene = all->context->scene;
-    const scene_mirrored_light *lights = scene->mirrored_lights;
-    for (;;) {
-        if (all->light == NEXT_MIRROR) {
-            if (all->next == scene->mirror_count)
-                return false;
-            if (!sees(all, &scene->mirrors[all->next++], &l->sight))
-                continue;
-            all->light = 0;
-            l->light = -1;
-            l->weight = l->sight.share * l->sight.reflects;
-            if (!lights) {
-                all->light = NEXT_MIRROR;
-                return true;
-            }
-        }
-        for (int count = (int)scene->light_count; all->light < count;) {
-            l->light = all->light++;
-            const scene_mirrored_light *light = &lights[l->light];
-            if (light->ambient && (!all->ambient || is_left_to_paths(scene, l->sight.mirror)))
-                continue;
-            l->weight = scene_mirror_shows(&l->sight, light);
-            if (l->weight > 0)
-                return true;
-        }
-        all->light = NEXT_MIRROR;
-    }
-}
-
-/* How many there are, their weights' sum, and how often any of them is to be sampled. So many are kept. */
-enum { KEPT = 8 };
-
-typedef struct survey {
-    int count;
-    double sum, often;
-    bool later; /* the path had been scattered before */
-    virtual_light kept[KEPT];
-} survey;
-
-/* What is faint is sampled as often as is worth it: of a pane, at the first point, so many times the share of light
- * that it reflects, lest few samples all miss it; later, where paths differ anyway, so many times. */
-#define WORTH_FIRST 4.0
-#define WORTH_LATER 0.5
-
-static double worth(const virtual_light *l, bool later) {
-    return fmin((later ? WORTH_LATER : WORTH_FIRST) * l->sight.reflects, 1);
-}
-
-static void look_around(survey *found, virtual_lights all, bool later) {
-    virtual_light l;
-    found->count = 0;
-    found->sum = found->often = 0;
-    found->later = later;
-    while (next_of(&all, &l)) {
-        if (found->count < KEPT)
-            found->kept[found->count] = l;
-        found->count++;
-        found->sum += l.weight;
-        found->often += worth(&l, later);
-    }
-}
-
-/* Where that would be more than so many at one point, so many are chosen of those that matter. */
-#define MOST   4
-#define CHOSEN 2
-
-/* How often one is sampled on the average. */
-static double expectation_of(const survey *all, const virtual_light *l) {
-    return all->often <= MOST ? worth(l, all->later) : CHOSEN * l->weight / all->sum;
-}
-
-/* Of many lights, as the vertex's image sees them. */
-typedef struct image {
-    graze_surface surface;
-    light_choice lights;
-} image;
-
-static void prepare_image(const path_context *context, const vertex *v, const scene_mirror_sight *sight, int bounced,
-                          image *made) {
-    const graze_scene *scene = context->scene;
-    const shape_plane *plane = &sight->mirror->plane;
-    graze_surface *s = &made->surface;
-    bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY;
-    bool glows = context_samples_glows(context->settings) && !is_left_to_paths(scene, sight->mirror);
-    *s = v->shading;
-    s->x = mirror_direction(plane, s->x);
-    s->y = mirror_direction(plane, s->y);
-    s->n = mirror_direction(plane, s->n);
-    light_receiver receiver = {.point = sight->image, .surface = s, .diffuse = v->shading.diffuse, .draws = 1};
-    if (v->function)
-        receiver.diffuse = rgb_add(receiver.diffuse, v->function_color);
-    if (glossy)
-        receiver.glossy = v->shading.specular;
-    if (glows && !v->no_ambient && bounced < context->settings->ambient_bounces)
-        receiver.ambient_diffuse = v->ambient;
-    if (glows && glossy && !v->gloss_is_ambient)
-        receiver.ambient_glossy = v->shading.specular;
-    light_choice_prepare(&made->lights, scene, &receiver);
-}
-
-/* Draws the light, or one of many; how often, on the average, is put into *expectation. Negative: none. */
-static int draw_light(const path *p, const vertex *v, const virtual_light *l, double random, double *expectation) {
-    *expectation = 1;
-    if (l->light >= 0)
-        return l->light;
-    image seen;
-    prepare_image(p->context, v, &l->sight, p->ambient_depth, &seen);
-    return light_choice_is_possible(&seen.lights) ? light_choose(&seen.lights, random, expectation) : -1;
-}
+#include "trace/virtual_lights.h"
 
 /* Light on its way by a mirror. */
 typedef struct reflection {
@@ -255,7 +85,7 @@ static bool find_reflection(const path *p, const vertex *v, const scene_mirror *
 
 /* What may find the same as a light sample does: of what a pane shows, paths find as much less as it reflects. */
 static lobe_choice rivals_of(const path *p, const scene_mirror *m, const reflection *r, const lobe_choice *choice) {
-    if (!paths_see(p->context->scene, m))
+    if (!virtual_lights_paths_see(p->context->scene, m))
         return (lobe_choice){0};
     lobe_choice rivals = *choice;
     if (m->pane) {
@@ -266,26 +96,27 @@ static lobe_choice rivals_of(const path *p, const scene_mirror *m, const reflect
 }
 
 /* Whether it finds anything. */
-static bool add_from(path *p, const vertex *v, const virtual_light *l, double expectation, const double random[3],
-                     const lobe_choice *choice) {
+static bool add_from(path *p, const virtual_lights *all, const virtual_light *l, double expectation,
+                     const double random[3], const lobe_choice *choice) {
     const graze_scene *scene = p->context->scene;
+    const vertex *v = all->vertex;
     const scene_mirror *m = l->sight.mirror;
     reflection r;
     double chance;
-    int light = draw_light(p, v, l, random[2], &chance);
+    int light = virtual_light_draw(all, l, random[2], &chance);
     if (light < 0)
         return false;
     light_sample sample = light_draw(scene, l->sight.image, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
         return false;
     r.onward = sample.direction;
-    sample.direction = mirror_direction(&m->plane, r.onward);
+    sample.direction = virtual_lights_mirror(m, r.onward);
     double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * chance * sample.density;
     if (cosine <= 0 || (v->leans && vec3_dot(sample.direction, v->normal) <= 0) ||
         !find_reflection(p, v, m, sample.direction, sample.distance, &r))
         return false;
     /* Where paths do not see the light in it, only what lights as a light does is seen by others. */
-    if (!paths_see(scene, m) && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
+    if (!virtual_lights_paths_see(scene, m) && light_role_at(&scene->lights[light], sample.distance) != LIGHT_DIRECT)
         return false;
     const lobe_choice rivals = rivals_of(p, m, &r, choice);
     rgb reflectance = direct_light_reflectance(p, v, &sample, density, &rivals, !m->pane || path_bounces_left(p));
@@ -309,7 +140,7 @@ static double brightness_of_whole(const path *p, const vertex *v, const virtual_
     light_sample sample = light_draw_middle(scene, l->sight.image, p->length, l->light);
     if (sample.light < 0)
         return 0;
-    sample.direction = mirror_direction(&m->plane, sample.direction);
+    sample.direction = virtual_lights_mirror(m, sample.direction);
     double slope = vec3_dot(m->plane.normal, sample.direction), cosine = vec3_dot(sample.direction, v->shading.n);
     reflection r = {.surface = scene->mirror_surfaces[m->first],
                     .to_mirror = vec3_dot(m->plane.normal, vec3_subtract(m->plane.point, v->point)) / slope};
@@ -336,21 +167,23 @@ static path_unmet_at *note_part(const path *p, const vertex *v, const virtual_li
 }
 
 /* By one number for all: where the sum of what is expected so far passes it, or it and a whole number. */
-static void add_chosen(path *p, const vertex *v, virtual_lights all, const survey *found, const lobe_choice *choice) {
+static void add_chosen(path *p, const virtual_lights *all, const virtual_lights_survey *found,
+                       const lobe_choice *choice) {
+    virtual_lights left = *all;
     virtual_light other;
     double random[3] = {0}, sum = 0, next;
-    if (found->often < found->count || found->often > MOST)
+    if (virtual_lights_draw_lots(found))
         random[0] = sampler_1d(p->sampler);
     next = random[0];
     for (int i = 0; i < found->count; i++) {
-        if (found->count > KEPT)
-            (void)next_of(&all, &other);
-        const virtual_light *l = found->count > KEPT ? &other : &found->kept[i];
-        double expectation = expectation_of(found, l);
-        path_unmet_at *part = note_part(p, v, l, expectation);
+        if (found->count > VIRTUAL_LIGHTS_KEPT)
+            (void)virtual_lights_next(&left, &other);
+        const virtual_light *l = found->count > VIRTUAL_LIGHTS_KEPT ? &other : &found->kept[i];
+        double expectation = virtual_lights_expectation(found, l);
+        path_unmet_at *part = note_part(p, all->vertex, l, expectation);
         for (sum += expectation; next < sum; next++) {
             sampler_3d(p->sampler, random);
-            bool met = add_from(p, v, l, expectation, random, choice);
+            bool met = add_from(p, all, l, expectation, random, choice);
             if (part)
                 part->met = part->met || met;
         }
@@ -362,34 +195,29 @@ void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
     if (dull || p->wanted == WANTED_BENT)
         return;
     const virtual_lights all = virtual_lights_of(p->context, v, p->ambient_depth);
-    survey found;
-    look_around(&found, all, p->scattered);
+    virtual_lights_survey found;
+    p->worth = virtual_lights_worth_at(p, v);
+    virtual_lights_look(&found, all, &p->worth);
     if (found.count > 0)
-        add_chosen(p, v, all, &found, choice);
+        add_chosen(p, &all, &found, choice);
 }
 
 /* How densely that would have found the light that the path has hit after its last scattering and then a mirror. */
 static double density_of(const path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
-    const vertex *v = p->last.vertex;
     const scene_mirror *m = scene_mirror_of(scene, p->last.mirror);
     int bounced = p->ambient_depth - (p->last.lobe == GRAZE_LOBE_DIFFUSE);
-    const virtual_lights all = virtual_lights_of(p->context, v, bounced);
+    const virtual_lights all = virtual_lights_of(p->context, p->last.vertex, bounced);
     virtual_lights left = all;
     virtual_light l;
     bool found = false;
-    while (!found && next_of(&left, &l))
+    while (!found && virtual_lights_next(&left, &l))
         found = l.sight.mirror == m && (l.light < 0 || l.light == hit->light);
     if (!found)
         return 0;
-    survey among;
-    look_around(&among, all, !p->last.first);
-    double expectation = expectation_of(&among, &l);
-    if (l.light < 0) {
-        image seen;
-        prepare_image(p->context, v, &l.sight, bounced, &seen);
-        expectation *= light_expectation(&seen.lights, hit->light);
-    }
+    virtual_lights_survey among;
+    virtual_lights_look(&among, all, &p->worth);
+    double expectation = virtual_lights_expectation(&among, &l) * virtual_light_chance(&all, &l, hit->light);
     return expectation == 0
                ? 0
                : expectation * light_density(scene, l.sight.image, hit->light, hit->direction, hit->point, hit->normal);

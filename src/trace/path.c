@@ -346,7 +346,7 @@ static void path_start(path *p, const path_context *context, sampler *points) {
     p->length = 0;
     p->throughput = (rgb){1, 1, 1};
     p->radiance = p->indirect_light = p->albedo = (rgb){0, 0, 0};
-    p->ambient_depth = p->depth = p->passages = 0;
+    p->ambient_depth = p->depth = p->passages = p->gleam_depth = 0;
     p->scattered = p->searching = false;
     p->last.lobe = GRAZE_LOBE_NONE;
     p->last.lights = NULL;

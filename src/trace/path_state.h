@@ -62,6 +62,13 @@ typedef struct path_branch {
     int depth, passages;
 } path_branch;
 
+/* How often lights in mirrors and panes are sampled at a vertex (trace/virtual_lights.h). */
+typedef struct virtual_lights_worth {
+    double faint; /* for each part of their light that is reflected */
+    double dim;   /* where there is no other light, */
+    double rival; /* of which there is so much, in units of their weights */
+} virtual_lights_worth;
+
 enum { PATH_BRANCHES = 8 };
 
 typedef struct path_branches {
@@ -85,6 +92,7 @@ typedef struct path {
     int ambient_limit;  /* how many there may be at this vertex */
     int depth;          /* all reflections so far */
     int passages;       /* how often it has been let through, straight on or refracted */
+    int gleam_depth;    /* reflections up to the last that was drawn by gleams (trace/gleams.h) */
     bool in_mist;       /* there is mist (trace/mist.h) */
     bool hindered;      /* something may be on the way of light: mist, panes, clear bodies, or illums */
     rgb medium;         /* transmittance of a unit of length where the path is; set where the scene refracts */
@@ -104,6 +112,8 @@ typedef struct path {
     path_unmet_at *unmet; /* what the path, or its branch, has begun to look for; null: nothing */
     rgb before;           /* the radiance then */
     path_rare rare;
+    double gleam_weight;        /* so many times of what the path carried was left by that */
+    virtual_lights_worth worth; /* at the last vertex at which lights were looked for in mirrors */
 } path;
 
 /* Whether the path is where all paths of its ray come first. */

@@ -74,7 +74,7 @@ static void assert_covers_a_caustic(const char *text) {
         double mean = sum / RAYS, scatter = sqrt((squares / RAYS - mean * mean) / RAYS);
         printf("# --error %g: %.1f%% covered, %g too large, +- %g; truth %g +- %g\n", s.error, 100.0 * covered / RAYS,
                mean, scatter, truth.value.g, truth.standard_error.g);
-        assert_true(covered >= 0.85 * RAYS);
+        assert_true(covered >= 0.92 * RAYS);
         assert_true(fabs(mean) < 3 * hypot(scatter, truth.standard_error.g));
     }
     graze_scene_destroy(scene);
@@ -147,6 +147,32 @@ static void intervals_cover_what_panes_reflect(void **state) {
     printf("# %.1f%% covered, %g off\n", 100.0 * covered / (RAYS * TIMES), scatter);
     assert_true(covered >= 0.92 * RAYS * TIMES && covered <= 0.98 * RAYS * TIMES);
     assert_true(scatter < 0.04);
+    graze_scene_destroy(scene);
+}
+
+/* A lamp over a table of glass, which alone lights the ceiling: a few of the paths that a sensor's diffuse reflections
+ * lead there have most of what differs between answers. */
+static void intervals_cover_what_panes_reflect_to_a_bounce(void **state) {
+    (void)state;
+    graze_scene *scene = load_scene("void plastic w 0 0 5 .7 .7 .7 0 0 void plastic d 0 0 5 .25 .25 .25 0 0\n"
+                                    "d polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
+                                    "w polygon ceiling 0 0 12 0 0 2.7 0 5 2.7 4 5 2.7 4 0 2.7\n"
+                                    "w polygon left 0 0 12 0 0 0 0 5 0 0 5 2.7 0 0 2.7\n"
+                                    "w polygon right 0 0 12 4 0 0 4 0 2.7 4 5 2.7 4 5 0\n"
+                                    "w polygon end 0 0 12 0 5 0 4 5 0 4 5 2.7 0 5 2.7\n"
+                                    "void glow g 0 0 4 25 25 25 0 void glass c 0 0 3 .8 .8 .8\n"
+                                    "g polygon lamp 0 0 12 1.35 1.25 1.7 1.35 1.55 1.7 1.65 1.55 1.7 1.65 1.25 1.7\n"
+                                    "c polygon table 0 0 12 .8 .8 .75 2.2 .8 .75 2.2 2 .75 .8 2 .75\n");
+    graze_trace_settings s = graze_trace_defaults();
+    const graze_ray ray = {.origin = {0, 1.1, 1.03}, .direction = {1, 0, 0}};
+    enum { TIMES = 1000 };
+    s.quantity = GRAZE_IRRADIANCE;
+    s.ambient_bounces = 2;
+    s.error = 0.01;
+    const graze_answer truth = truth_of(scene, s, &ray, 1u << 17, TIMES);
+    const int covered = count_covering(scene, &s, &ray, &truth, TIMES);
+    printf("# %.1f%% covered; truth %g +- %g\n", 100.0 * covered / TIMES, truth.value.g, truth.standard_error.g);
+    assert_true(covered >= 0.94 * TIMES && covered <= 0.985 * TIMES);
     graze_scene_destroy(scene);
 }
 
@@ -260,28 +286,35 @@ static void what_mirrors_may_show_is_in_the_error(void **state) {
 }
 
 /* A glossy ball that shows a window, which few diffuse reflections meet: with as few samples as do for the rest, most
- * answers have met nothing. */
-static void a_ball_by_the_window_is_in_the_error(void **state) {
+ * answers would have met nothing. The same where a disc of glass is before the window. */
+static void intervals_cover_a_ball_by_the_window(void **state) {
     (void)state;
-    graze_scene *scene = load_scene("void plastic w 0 0 5 .6 .6 .6 0 0 void glow g 0 0 4 10 10 10 0\n"
-                              "void metal m 0 0 5 .7 .7 .7 .9 .05 m sphere ball 0 0 4 2.2 3 .5 .5\n"
-                              "w polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
-                              "w polygon ceiling 0 0 12 0 0 3 0 5 3 4 5 3 4 0 3\n"
-                              "w polygon wall 0 0 12 0 0 0 0 5 0 0 5 3 0 0 3\n"
-                              "g polygon window 0 0 12 1.5 4.99 1 2.5 4.99 1 2.5 4.99 2 1.5 4.99 2\n");
-    graze_trace_settings s = graze_trace_defaults();
-    s.ambient_bounces = 1;
-    s.error = 0.1;
+#define BALL_BY_WINDOW                                                                                                 \
+    "void plastic w 0 0 5 .6 .6 .6 0 0 void glow g 0 0 4 10 10 10 0\n"                                                 \
+    "void metal m 0 0 5 .7 .7 .7 .9 .05 m sphere ball 0 0 4 2.2 3 .5 .5\n"                                             \
+    "w polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"                                                                 \
+    "w polygon ceiling 0 0 12 0 0 3 0 5 3 4 5 3 4 0 3\n"                                                               \
+    "w polygon wall 0 0 12 0 0 0 0 5 0 0 5 3 0 0 3\n"                                                                  \
+    "g polygon window 0 0 12 1.5 4.99 1 2.5 4.99 1 2.5 4.99 2 1.5 4.99 2\n"
+    static const char *const scenes[] = {BALL_BY_WINDOW, BALL_BY_WINDOW
+                                         "void glass c 0 0 3 .9 .9 .9 c ring disc 0 0 8 2 4.5 1.5 0 -1 0 0 .6\n"};
     enum { RAYS = 20, TIMES = 40 };
-    int covered = 0;
-    for (int i = 0; i < RAYS; i++) {
-        graze_ray ray = {.origin = {2, 0.5, 1.5}, .direction = {-1, 0.4 + 0.05 * i, (i * 7 % RAYS - RAYS / 2) * 0.06}};
-        const graze_answer truth = truth_of(scene, s, &ray, 1u << 13, 99);
-        covered += count_covering(scene, &s, &ray, &truth, TIMES);
+    for (int k = 0; k < 2; k++) {
+        graze_scene *scene = load_scene(scenes[k]);
+        graze_trace_settings s = graze_trace_defaults();
+        s.ambient_bounces = 1;
+        s.error = 0.1;
+        int covered = 0;
+        for (int i = 0; i < RAYS; i++) {
+            graze_ray ray = {.origin = {2, 0.5, 1.5},
+                             .direction = {-1, 0.4 + 0.05 * i, (i * 7 % RAYS - RAYS / 2) * 0.06}};
+            const graze_answer truth = truth_of(scene, s, &ray, 1u << 13, 99);
+            covered += count_covering(scene, &s, &ray, &truth, TIMES);
+        }
+        printf("# %.1f%% covered\n", 100.0 * covered / (RAYS * TIMES));
+        assert_true(covered >= 0.92 * RAYS * TIMES);
+        graze_scene_destroy(scene);
     }
-    printf("# %.1f%% covered\n", 100.0 * covered / (RAYS * TIMES));
-    assert_true(covered >= 0.85 * RAYS * TIMES);
-    graze_scene_destroy(scene);
 }
 
 static void zeros_are_exact_where_all_is_dark(void **state) {
@@ -301,11 +334,12 @@ int main(void) {
                                        cmocka_unit_test(intervals_cover_a_caustic_below_glass),
                                        cmocka_unit_test(what_bent_panes_reflect_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_panes_reflect),
+                                       cmocka_unit_test(intervals_cover_what_panes_reflect_to_a_bounce),
                                        cmocka_unit_test(what_is_not_met_is_in_the_error),
                                        cmocka_unit_test(what_mirrors_may_show_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_shines_through),
                                        cmocka_unit_test(what_clear_bodies_throw_is_in_the_error),
-                                       cmocka_unit_test(a_ball_by_the_window_is_in_the_error),
+                                       cmocka_unit_test(intervals_cover_a_ball_by_the_window),
                                        cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
