@@ -264,11 +264,11 @@ static void what_mirrors_may_show_is_in_the_error(void **state) {
 static void a_ball_by_the_window_is_in_the_error(void **state) {
     (void)state;
     graze_scene *scene = load_scene("void plastic w 0 0 5 .6 .6 .6 0 0 void glow g 0 0 4 10 10 10 0\n"
-                              "void metal m 0 0 5 .7 .7 .7 .9 .05 m sphere ball 0 0 4 2.2 3 .5 .5\n"
-                              "w polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
-                              "w polygon ceiling 0 0 12 0 0 3 0 5 3 4 5 3 4 0 3\n"
-                              "w polygon wall 0 0 12 0 0 0 0 5 0 0 5 3 0 0 3\n"
-                              "g polygon window 0 0 12 1.5 4.99 1 2.5 4.99 1 2.5 4.99 2 1.5 4.99 2\n");
+                                    "void metal m 0 0 5 .7 .7 .7 .9 .05 m sphere ball 0 0 4 2.2 3 .5 .5\n"
+                                    "w polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0\n"
+                                    "w polygon ceiling 0 0 12 0 0 3 0 5 3 4 5 3 4 0 3\n"
+                                    "w polygon wall 0 0 12 0 0 0 0 5 0 0 5 3 0 0 3\n"
+                                    "g polygon window 0 0 12 1.5 4.99 1 2.5 4.99 1 2.5 4.99 2 1.5 4.99 2\n");
     graze_trace_settings s = graze_trace_defaults();
     s.ambient_bounces = 1;
     s.error = 0.1;
