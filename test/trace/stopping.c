@@ -203,11 +203,13 @@ static void torn_places(void **state) {
     }
     /* What noise tears is not gone on with. */
     s.torn = s.after = 10;
-    s.luck[0] = ESTIMATE_NOISY;
-    assert_int_equal(answer_of(within(0.2, 0), s).samples, 12);
-    s.luck[0] = ESTIMATE_PLACE;
-    s.luck[1] = ESTIMATE_NOISY;
-    assert_int_equal(answer_of(within(0.2, 0), s).samples, 12);
+    for (int noisy = 0; noisy < 2; noisy++) {
+        s.luck[noisy] = ESTIMATE_NOISY;
+        s.luck[1 - noisy] = ESTIMATE_PLACE;
+        graze_answer answer = answer_of(within(0.05, 0), s);
+        assert_int_equal(answer.samples, 4 + 16);
+        assert_true(answer.standard_error.g > 1.5 * 0.05 * answer.value.g);
+    }
 }
 
 /* An edge that the few samples of a place may have missed is asked for once they would be believed. */
