@@ -93,11 +93,11 @@ static void paths_survive(void **state) {
         int limit, depth;
         double chance;
     } cases[] = {
-        {1, 0.01, 0, 0, 1},       {0.01, 0.01, 0, 0, 0.5},  {0.02, 0.01, 5, 0, 1},  {0.01, 0.01, 5, 0, 0},
-        {0.01, 0.01, -5, 0, 0.5}, {1, 0.01, 3, 2, 1},       {1, 0.01, 3, 3, 0},     {1, 0.01, -3, 2, 1},
-        {1, 0.01, -3, 3, 0},      {0.3, 0.01, 0, 3, 1},     {0.3, 0.01, 0, 4, 0.5}, {0.6, 0.01, 0, 4, 1},
-        {0.9, 0.01, 0, 4, 1},     {0.02, 1e-3, 0, 4, 0.05}, {1, 0.01, 0, 63, 1},    {1, 0.01, 0, 64, 0.9},
-        {0.3, 0.01, 0, 64, 0.5},
+        {1, 0.01, 0, 0, 1},    {0.01, 0.01, 0, 0, 0.5},  {0.02, 0.01, 5, 0, 1},    {0.01, 0.01, 5, 0, 0},
+        {0.01, 0.01, 1, 0, 0}, {0.01, 0.01, -5, 0, 0.5}, {1, 0.01, 3, 2, 1},       {1, 0.01, 3, 3, 0},
+        {1, 0.01, -3, 2, 1},   {1, 0.01, -3, 3, 0},      {0.3, 0.01, 0, 3, 1},     {0.3, 0.01, 0, 4, 0.5},
+        {0.6, 0.01, 0, 4, 1},  {0.9, 0.01, 0, 4, 1},     {0.02, 1e-3, 0, 4, 0.05}, {1, 0.01, 0, 63, 1},
+        {1, 0.01, 0, 64, 0.9}, {0.3, 0.01, 0, 64, 0.5},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         arrival a = begin();
@@ -109,7 +109,11 @@ static void paths_survive(void **state) {
         if (fabs(chance - cases[i].chance) > 1e-12)
             fail_msg("case %d: %g", (int)i, chance);
     }
-    assert_close(mirror_chance(begin(), 0), 0, 0);
+    bool ends;
+    arrival a = begin();
+    a.settings.minimum_weight = 0;
+    assert_close(mirror_chance(a, 0), 0, 0);
+    assert_close(diffuse_chance(a, 0, &ends), 0, 0);
 }
 
 /* A path that carries nothing itself looks for lights, by what these would give. */
@@ -294,6 +298,11 @@ static void both_sides_share(void **state) {
          1,
          {0.5 / 1.01 / (1.0 / 1.01 + 0.1), 0.1 / (1.0 / 1.01 + 0.1), 0, 0.5 / 1.01 / (1.0 / 1.01 + 0.1)},
          {false, false}},
+        {0.4, 0.1, 0, 0, 0, {1, 0, 0, 0}, {true, false}},
+        {0, 0.1, 0.2, 0, 0, {0, 0, 1, 0}, {true, false}},
+        {0.4, 0, 0, 0.3, 0, {1, 0, 0, 0}, {false, true}},
+        {0, 0, 0.2, 0.3, 0, {0, 0, 1, 0}, {false, true}},
+        {0, 0, 0, 0.5, 0, {0, 0, 0, 1}, {false, false}},
         {0, 0, 0, 0, 1, {0, 0, 0, 0}, {false, false}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -314,10 +323,102 @@ static void both_sides_share(void **state) {
         lobes_choose_both(&a.p, &a.v, &above, &below);
         const double found[] = {above.diffuse, above.specular, below.diffuse, below.specular};
         for (int k = 0; k < 4; k++)
-            if (fabs(found[k] - cases[i].chances[k]) > 1e-12)
+            if (!(fabs(found[k] - cases[i].chances[k]) <= 1e-12))
                 fail_msg("case %d, lobe %d: %g", (int)i, k, found[k]);
         assert_int_equal(above.specular_splits, cases[i].splits[0]);
         assert_int_equal(below.specular_splits, cases[i].splits[1]);
+    }
+}
+
+/* As often as the likeliest would be taken; and gloss below the threshold only for lights. */
+static void both_sides_end(void **state) {
+    (void)state;
+    lobe_choice above, below;
+    arrival a = begin();
+    a.p.throughput = rgb_gray(0.1);
+    a.p.depth = 1;
+    settle(&a, (graze_material){.kind = GRAZE_TRANS,
+                                .color = rgb_gray(1),
+                                .specularity = 0.5,
+                                .transmission = 0.5,
+                                .transmitted_specularity = 0.5,
+                                .roughness_u = 0.2,
+                                .roughness_v = 0.2});
+    assert_int_equal(a.v.shading.transmitted_lobe, GRAZE_LOBE_TRANSMITTED_GLOSSY);
+    a.v.ambient = a.v.shading.specular = a.v.transmitted_ambient = rgb_gray(0);
+    a.v.shading.transmitted_specular = rgb_gray(0.5);
+    lobes_choose_both(&a.p, &a.v, &above, &below);
+    assert_close(below.specular, 0.5, 1e-12);
+    assert_false(below.specular_ends);
+    a.v.transmitted_gloss_is_ambient = true;
+    lobes_choose_both(&a.p, &a.v, &above, &below);
+    assert_close(below.specular, 0, 0);
+    a.scene.light_count = 1;
+    lobes_choose_both(&a.p, &a.v, &above, &below);
+    assert_close(below.specular, 1, 0);
+    assert_true(below.specular_ends);
+}
+
+/* The direction that so many numbers give, drawn as the path draws them. */
+static vec3 drawn(const arrival *a, graze_lobe lobe, int numbers, double random[4]) {
+    sampler copy = a->random;
+    random[2] = random[3] = 0;
+    if (numbers == 2)
+        sampler_2d(&copy, random);
+    else if (numbers == 3)
+        sampler_3d(&copy, random);
+    else
+        sampler_4d(&copy, random);
+    if (lobe != GRAZE_LOBE_GLOSSY || a->settings.strategy != GRAZE_STRATEGY_UNWEIGHTED)
+        return graze_surface_sample_lobe(&a->v.shading, lobe, random[0], random[1], random[2]).direction;
+    graze_surface_sample sample = graze_surface_sample_unweighted(&a->v.shading, random[0], random[1]);
+    while (rgb_is_black(sample.weight)) {
+        double again[2];
+        sampler_2d(&copy, again);
+        sample = graze_surface_sample_unweighted(&a->v.shading, again[0], again[1]);
+    }
+    return sample.direction;
+}
+
+/* As many numbers as are needed, in the order that samplers expect; what is rejected without weights is drawn again. */
+static void directions_are_drawn(void **state) {
+    (void)state;
+    const struct {
+        lobe_choice choice;
+        int numbers;
+        graze_strategy strategy;
+    } cases[] = {
+        {{.diffuse = 1}, 2, GRAZE_STRATEGY_MIS},
+        {{.diffuse = 0.5}, 4, GRAZE_STRATEGY_MIS},
+        {{.specular = 0.5}, 4, GRAZE_STRATEGY_MIS},
+        {{.diffuse = 0.5, .specular = 0.5}, 4, GRAZE_STRATEGY_MIS},
+        {{.diffuse = 1e-9, .specular = 1}, 4, GRAZE_STRATEGY_MIS},
+        {{.specular = 1}, 3, GRAZE_STRATEGY_MIS},
+        {{.specular = 1}, 3, GRAZE_STRATEGY_UNWEIGHTED},
+        {{.diffuse = 1}, 2, GRAZE_STRATEGY_UNWEIGHTED},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        arrival a = begin();
+        a.settings.strategy = cases[i].strategy;
+        settle(&a, plastic(0.5, 0.5, 0.6));
+        const path before = a.p;
+        int taken = 0;
+        for (uint32_t k = 0; k < 256; k++) {
+            vec3 direction;
+            double random[4];
+            a.p = before;
+            a.random = sampler_start(sampler_key(1, 2, 3), k);
+            sampler copy = a.random;
+            (void)drawn(&a, GRAZE_LOBE_DIFFUSE, cases[i].numbers, random);
+            graze_lobe lobe = random[3] < cases[i].choice.diffuse ? GRAZE_LOBE_DIFFUSE : GRAZE_LOBE_GLOSSY;
+            vec3 expected = drawn(&a, lobe, cases[i].numbers, random);
+            a.random = copy;
+            if (!lobes_reflect(&a.p, &a.v, NULL, &cases[i].choice, &direction))
+                continue;
+            taken++;
+            assert_close(vec3_dot(direction, expected), 1, 1e-12);
+        }
+        assert_true(taken > 100);
     }
 }
 
@@ -401,6 +502,13 @@ static void paths_go_on(void **state) {
     a.p.throughput = rgb_gray(4e30);
     settle(&a, plastic(0.5, 0, 0));
     assert_false(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
+    a.v.ambient = rgb_gray(0);
+    a.p.throughput = rgb_gray(4e30);
+    assert_false(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
+    a.v.ambient = rgb_gray(0.5);
+    a.v.shading.diffuse = rgb_gray(0);
+    a.p.throughput = rgb_gray(4e30);
+    assert_false(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
     a.p.throughput = rgb_gray(1e30);
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
     /* Reflections that may meet lights which no light sample finds are searches. */
@@ -463,6 +571,18 @@ static void panes_let_through(void **state) {
         assert_close(a.p.last.travelled, 5, 1e-12);
         assert_true(a.p.passages == 1 && a.p.depth == 0 && a.p.known.settled == 0 && a.p.known.controls == 0);
         assert_false(a.p.last.refracted);
+        /* Nor through a leaning one that leads back, or to more light than there can be. */
+        here.vertex.normal = (vec3){0, 0, -1};
+        assert_true(lobes_go_on(&a.p, &here, &beyond, &direction));
+        here.vertex.leans = true;
+        assert_false(lobes_go_on(&a.p, &here, &beyond, &direction));
+        here.vertex.normal = up;
+        assert_true(lobes_go_on(&a.p, &here, &beyond, &direction));
+        a.p.throughput = rgb_gray(4e30);
+        assert_int_equal(lobes_go_on(&a.p, &here, &beyond, &direction), scattered);
+        a.p.throughput = rgb_gray(1);
+        a.p.last.indirect = rgb_gray(4e30);
+        assert_int_equal(lobes_go_on(&a.p, &here, &beyond, &direction), !scattered);
         beyond.lobes.specular = 0;
         assert_false(lobes_go_on(&a.p, &here, &beyond, &direction));
     }
@@ -536,12 +656,20 @@ static void branches(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paths_survive),    cmocka_unit_test(passages_are_let_through),
-        cmocka_unit_test(lobes_end),        cmocka_unit_test(what_is_worth_following),
-        cmocka_unit_test(lobes_share),      cmocka_unit_test(mirrors_split_off),
-        cmocka_unit_test(both_sides_share), cmocka_unit_test(paths_go_on),
-        cmocka_unit_test(leaning_normals),  cmocka_unit_test(panes_let_through),
-        cmocka_unit_test(refraction),       cmocka_unit_test(branches),
+        cmocka_unit_test(paths_survive),
+        cmocka_unit_test(passages_are_let_through),
+        cmocka_unit_test(lobes_end),
+        cmocka_unit_test(what_is_worth_following),
+        cmocka_unit_test(lobes_share),
+        cmocka_unit_test(mirrors_split_off),
+        cmocka_unit_test(both_sides_share),
+        cmocka_unit_test(both_sides_end),
+        cmocka_unit_test(directions_are_drawn),
+        cmocka_unit_test(paths_go_on),
+        cmocka_unit_test(leaning_normals),
+        cmocka_unit_test(panes_let_through),
+        cmocka_unit_test(refraction),
+        cmocka_unit_test(branches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
