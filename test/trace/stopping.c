@@ -284,6 +284,23 @@ static void exact_answers(void **state) {
     assert_close(stated(1, s), GRAZE_UNKNOWN_ERROR, 0);
 }
 
+/* A half's evidence is all differences of neighbours, neighbours of neighbours, and so on. */
+static void neighbours_are_compared(void **state) {
+    (void)state;
+    static const int freedoms[] = {0, 0, 1, 1, 3, 3, 4, 4, 7};
+    for (uint32_t taken = 1; taken < 9; taken++) {
+        estimate_half h = {.taken = taken}, other = {.taken = 1};
+        for (int i = 0; i < 8; i++)
+            h.sum[i] = rgb_gray(i < 4 ? 1 : 3);
+        estimate_finding found = estimate_finding_of(&h, &other);
+        assert_close(found.evidence.freedom, freedoms[taken], 0);
+        assert_close(found.mean.g, taken <= 4 ? 1 : (4 + 3.0 * (taken - 4)) / taken, 1e-12);
+        /* Only the two halves of eight differ, by 2. */
+        assert_close(found.evidence.slow.g, taken == 8 ? 1 / laws_of_difference(2).slow : 0, 1e-12);
+        assert_close(found.evidence.fast.g, taken == 8 ? 1 / laws_of_difference(2).fast : 0, 1e-12);
+    }
+}
+
 /* Halves count by their samples where these were decided to be as many, or one more; else alike. */
 static void halves_are_shared(void **state) {
     (void)state;
@@ -495,6 +512,7 @@ int main(void) {
         cmocka_unit_test(edges_are_asked_for),
         cmocka_unit_test(exact_answers),
         cmocka_unit_test(halves_are_shared),
+        cmocka_unit_test(neighbours_are_compared),
         cmocka_unit_test(parts_are_means),
         cmocka_unit_test(unseen_shadows),
         cmocka_unit_test(controls_are_added),

@@ -39,6 +39,12 @@ static void add_rectangle(const char *kind, double x0, double x1, double y, doub
     add_text(more);
 }
 
+static void add_covered_lamp(const char *kind, double angle) {
+    double x = ring * cos(angle), y = ring * sin(angle), h = side / 2;
+    add_rectangle(kind, x - h, x + h, y, h, height);
+    add_rectangle("black", x - 4 * h, x + 4 * h, y, 4 * h, height - 0.001);
+}
+
 /* Of the lid's two halves none hides all of the lamp, so that nobody knows that both do. */
 static void add_lamp(const char *kind, double angle) {
     double x = ring * cos(angle), y = ring * sin(angle), h = side / 2, lid = height - 0.001;
@@ -50,7 +56,9 @@ static void add_lamp(const char *kind, double angle) {
 static void write_scene(const char *floor, const char *kind, int lamps) {
     text[0] = 0;
     add_text(
-        "void plastic black 0 0 5 0 0 0 0 0 void light lit 0 0 3 1e4 1e4 1e4 void glow glowing 0 0 4 1e4 1e4 1e4 0\n");
+        "void plastic black 0 0 5 0 0 0 0 0 void light lit 0 0 3 1e4 1e4 1e4 void glow glowing 0 0 4 1e4 1e4 1e4 0 "
+        "void glow dark 0 0 4 1e4 1e4 1e4 -1 void light dim 0 0 3 1e-6 1e-6 1e-6 "
+        "void spotlight aside 0 0 7 1e4 1e4 1e4 60 1 0 -.1\n");
     add_text(floor);
     add_text(" floor polygon f 0 0 12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n");
     add_text(PANE);
@@ -124,6 +132,10 @@ static void glossy_floors(void **state) {
     assert_true(share < 1);
     assert_close(missing(narrow, "lit", 1, 0) / (through * 0.5 * radiance), 1, 1e-6);
     assert_close(missing(narrow, "glowing", 1, 0) / (through * 0.5 * radiance), 1, 1e-6);
+    /* As narrow as the lamp, it shows it by what it reflects there: nothing. */
+    char alike[100];
+    snprintf(alike, sizeof alike, "void metal floor 0 0 5 .5 .5 .5 1 %g", sqrt(1.5 * solid_angle / (4 * PI)));
+    assert_close(missing(alike, "lit", 1, 0), 0, 1e-9);
     graze_surface s;
     const graze_material m = {
         .kind = GRAZE_METAL, .color = {.5, .5, .5}, .specularity = 1, .roughness_u = 0.3, .roughness_v = 0.3};
@@ -135,6 +147,57 @@ static void glossy_floors(void **state) {
     const char *mixed = "void plastic floor 0 0 5 .5 .5 .5 .01 .0015";
     double seldom = fmax(0.1, share), matte = 0.99 * 0.5 / PI * solid_angle * cosine;
     assert_close(missing(mixed, "lit", 12, 9) / (12 * of_few() * radiance * (matte + 0.01 / seldom)), 1, 2e-3);
+}
+
+/* The answer to a scene that has been written. */
+static graze_answer answer(graze_trace_settings s) {
+    s.samples = 64;
+    return answer_along(text, &s, down);
+}
+
+/* Lamps that are known to be hidden, that light nothing, or not by the gloss of what is ambient. */
+static void not_expected(void **state) {
+    (void)state;
+    graze_trace_settings s = graze_trace_defaults();
+    s.ambient_bounces = 0;
+    write_scene(MATTE, "lit", 1);
+    double one = answer(s).standard_error.g;
+    add_covered_lamp("lit", 2);
+    assert_close(answer(s).standard_error.g, one, 1e-9);
+    assert_close(missing(MATTE, "dark", 1, 1), 0, 0);
+    assert_close(missing(MATTE, "aside", 1, 0), 0, 0);
+    assert_close(missing(MATTE, "aside", 12, 0), 0, 0);
+    s.specular_threshold = 1;
+    write_scene("void metal floor 0 0 5 .5 .5 .5 1 .0015", "glowing", 1);
+    assert_close(answer(s).standard_error.g, 0, 0);
+    write_scene(MATTE, "glowing", 1);
+    s.ambient_bounces = 1;
+    s.back_faces_visible = 0;
+    assert_close(answer(s).standard_error.g, 0, 0);
+}
+
+/* Of many lamps one that matters; and not more than what is seen. */
+static void chosen_lamps(void **state) {
+    (void)state;
+    graze_trace_settings s = graze_trace_defaults();
+    s.ambient_bounces = 0;
+    double solid_angle, cosine;
+    lamp_as_seen(&solid_angle, &cosine);
+    double one = transmittance() * 0.5 / PI * radiance * solid_angle * cosine;
+    for (int last = 0; last < 2; last++) {
+        write_scene(MATTE, last ? "dim" : "lit", 1);
+        for (int i = 1; i < 12; i++)
+            add_lamp(last && i == 11 ? "lit" : "dim", 2 * PI * i / 12);
+        /* The others are chosen once in 200 times. */
+        assert_close(answer(s).standard_error.g * 64 / one, 1.005, 2e-3);
+    }
+    for (int lamps = 2; lamps < 20; lamps += 10) {
+        write_scene(MATTE, "lit", lamps);
+        s.ambient_value = rgb_gray(one / 1000);
+        graze_answer capped = answer(s);
+        assert_true(capped.value.g > 0 && capped.standard_error.g >= capped.value.g &&
+                    capped.standard_error.g < 1.5 * capped.value.g);
+    }
 }
 
 /* Nothing is missing of what is met. */
@@ -206,7 +269,8 @@ static void what_is_met(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(matte_floors), cmocka_unit_test(glossy_floors), cmocka_unit_test(nothing_is_missing),
-        cmocka_unit_test(notes),        cmocka_unit_test(what_is_met),
+        cmocka_unit_test(not_expected), cmocka_unit_test(chosen_lamps),  cmocka_unit_test(notes),
+        cmocka_unit_test(what_is_met),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
