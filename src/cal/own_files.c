@@ -1,5 +1,6 @@
 /* Skies, lamps, windows and rounded surfaces: CIE's skies as gensky asks for them, Perez's as gendaylit does, the
- * photometry of ies2rad, the distributions of mkillum, and the interpolated normals of genrev, gensurf and obj2rad. */
+ * photometry of ies2rad, the distributions of mkillum, coated panes as glaze does, and the interpolated normals of
+ * genrev, gensurf and obj2rad. */
 #include "cal/own_files.h"
 
 #include <stddef.h>
@@ -8,9 +9,25 @@
 /* R. Perez, R. Seals, J. Michalsky: All-weather model for sky luminance distribution. Solar Energy 50 (1993). A1 is the
  * norm, A2 the ground, A3 .. A7 the coefficients, A8 .. A10 the sun. Sky and ground fade into each other about the
  * horizon, here and below, in proportion to (Dz + 1.01)^10 and its reciprocal. */
-static const char perezlum[] = "tosun = A8*Dx + A9*Dy + A10*Dz; high = max(Dz, .01);"
-                               "intersky = A1*(1 + A3*Exp(A4/high))*(1 + A5*Exp(A6*Acos(tosun)) + A7*tosun*tosun);"
-                               "up = (Dz + 1.01)^10; down = 1/up; skybright = (up*intersky + down*A2)/(up + down);";
+#define PEREZ                                                                                                          \
+    "tosun = A8*Dx + A9*Dy + A10*Dz; high = max(Dz, .01);"                                                             \
+    "intersky = A1*(1 + A3*Exp(A4/high))*(1 + A5*Exp(A6*Acos(tosun)) + A7*tosun*tosun);"                               \
+    "up = (Dz + 1.01)^10; down = 1/up; skybright = (up*intersky + down*A2)/(up + down);"
+static const char perezlum[] = PEREZ;
+
+/* gendaylit -C: A. Diakite-Kortlever, M. Knoop: Forecast accuracy of existing luminance-related spectral sky models.
+ * Lighting Research & Technology 53 (2021). The luminance of a place tells its correlated colour temperature in K, the
+ * same everywhere where A11, the clearness, says overcast; a cubic in the reciprocal of that tells x of CIE's 1931
+ * chromaticity, A12 .. A15 up to 7000 K and A16 .. A19 above; a parabola in x, A20 .. A22, tells y. From XYZ to RGB by
+ * Radiance's numbers, of which the first is .004 more than the others ask for. */
+static const char perezlum_c[] =
+    PEREZ "temperature = if(1.065 - arg(11), 6191, 1e6/(78.648*log10(skybright) - 180.956));"
+          "cubic(n) = ((arg(n)/temperature + arg(n + 1))/temperature + arg(n + 2))/temperature + arg(n + 3);"
+          "x = cubic(if(temperature - 7000, 16, 12)); y = (arg(20)*x + arg(21))*x + arg(22);"
+          "X = skybright*x/y; Z = skybright*(1 - x - y)/y;"
+          "skybright_r = 2.5693*X - 1.1668*skybright - .3984*Z;"
+          "skybright_g = 1.9783*skybright - 1.0221*X + .0438*Z;"
+          "skybright_b = 1.1772*Z - .0747*X - .2519*skybright;";
 
 /* CIE's clear (1), overcast (2) and intermediate sky (4), and a uniform one (3), by A1; A2 is the zenith, A3 the
  * ground, A4 the norm for the sun's height, A5 .. A7 the sun. */
@@ -48,6 +65,24 @@ static const char illum[] = "turn(angle) = if(angle, angle, angle + 2*PI); again
 static const char tilt[] = "tilt_ang = Acos(Kz)/DEGREE; tilt_xang = Atan2(Jy, abs(Jz))/DEGREE;"
                            "tilt_ang2 = tri(tilt_ang, 90); tilt_xang2 = tri(tilt_xang, 90);";
 
+/* Panes of the BRTDfunc that glaze writes. A reflectance becomes 1, and a transmittance 0, towards grazing angles. */
+#define GRAZING                                                                                                        \
+    "least : exp(-5.85); rising = exp(-5.85*abs(Rdot)) - least;"                                                       \
+    "fr(r) = r + rising*(1 - r); ft(t) = t - rising*t; rclr = fr(.076); tclr = ft(.883);"
+
+/* One pane, whose plain side is in front for A10 of 1 and behind for -1. A frit covers arg(11) of the other side. Of a
+ * coating arg(11) .. arg(13) is what the plain side reflects, arg(14) .. arg(16) the other, and arg(17) .. arg(19) is
+ * transmitted. */
+static const char glaze1[] = GRAZING "bare = 1 - arg(11); frit = rclr*if(A10*Rdot, 1, bare); through = tclr*bare;"
+                                     "sr_frit_r = frit; sr_frit_g = frit; sr_frit_b = frit;"
+                                     "st_frit_r = through; st_frit_g = through; st_frit_b = through;"
+                                     "coat(n) = fr(arg(if(A10*Rdot, n, n + 3)));"
+                                     "sr_clear_r = coat(11); sr_clear_g = coat(12); sr_clear_b = coat(13);"
+                                     "st_clear_r = ft(arg(17)); st_clear_g = ft(arg(18)); st_clear_b = ft(arg(19));";
+
+/* Two panes: what the second one reflects is seen through the first one, once. */
+static const char glaze2[] = GRAZING "cr(front, pane, back) = front + pane*pane*back;";
+
 /* What genrev -s adds to a cone's normal: along the axis z a line in the height, A1 and A2, and away from the axis one
  * in the distance, A3 and A4. */
 static const char rev[] =
@@ -70,8 +105,10 @@ static const char tmesh[] =
 
 static const struct {
     const char *name, *text;
-} files[] = {{"perezlum", perezlum}, {"skybright", skybright}, {"source", source}, {"illum", illum}, {"tilt", tilt},
-             {"rev", rev},           {"surf", surf},           {"tmesh", tmesh}};
+} files[] = {
+    {"perezlum", perezlum}, {"perezlum_c", perezlum_c}, {"skybright", skybright}, {"source", source}, {"illum", illum},
+    {"tilt", tilt},         {"glaze1", glaze1},         {"glaze2", glaze2},       {"rev", rev},       {"surf", surf},
+    {"tmesh", tmesh}};
 
 const char *cal_own_file(const char *name) {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {

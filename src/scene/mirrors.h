@@ -36,7 +36,7 @@ typedef struct scene_mirror_sight {
 } scene_mirror_sight;
 
 /* Notes a surface if lights are to be sampled in it. */
-void scene_mirrors_note(struct scene_builder *, int surface);
+void scene_mirrors_note(struct scene_builder *, int index);
 
 /* From what is noted, after all that may cut it and all lights, to the scene's mirrors. Of very many planes of panes
  * the largest are kept. */

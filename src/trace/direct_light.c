@@ -154,22 +154,23 @@ static ONE_SIDE reflectance reflectance_for_light(const path *p, const vertex *v
     return r;
 }
 
-/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. */
-static ONE_SIDE void add_sampled_light(path *p, const vertex *v, int light, double expectation, const double random[2],
-                                       const lobe_choice *choice, bool below) {
+/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. Tells the
+ * brightness that something hides wholly. */
+static ONE_SIDE double add_sampled_light(path *p, const vertex *v, int light, double expectation,
+                                         const double random[2], const lobe_choice *choice, bool below) {
     light_sample sample = light_draw(p->context->scene, v->point, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance))
-        return;
+        return 0;
     double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * sample.density;
     if (below)
         cosine = -cosine;
     if (cosine <= 0 || (v->leans && (vec3_dot(sample.direction, v->normal) <= 0) != below))
-        return;
+        return 0;
     reflectance r = reflectance_for_light(p, v, &sample, density, choice, below);
     rgb reflected = rgb_multiply(rgb_add(r.diffuse, r.glossy), sample.radiance);
     rare_gloss rare = !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
     if (rare != RARE_GLOSS_FLAT && rgb_is_black(reflected))
-        return;
+        return 0;
     rgb weight = rgb_scale(cosine / density, p->throughput), whole = rgb_multiply(weight, reflected);
     rgb passed = rgb_gray(1);
     bool lit = light_is_visible(p, v, &sample, &passed);
@@ -188,6 +189,7 @@ static ONE_SIDE void add_sampled_light(path *p, const vertex *v, int light, doub
     }
     if (known_light_is_control(p, light))
         known_light_subtract(p, light, whole, lit ? rgb_brightness(found) : 0);
+    return lit ? 0 : rgb_brightness(whole);
 }
 
 /* Where a number in [0,1) is after some steps of the given length around the circle of these numbers. Steps of 1/g and
@@ -203,25 +205,28 @@ static ONE_SIDE void add_every_light(path *p, const vertex *v, const light_choic
     for (int light = 0; light < lights->every; light++)
         if (!known_light_is_settled(p, light) && light_expectation(lights, light) > 0) {
             sampler_2d(p->sampler, random);
-            add_sampled_light(p, v, light, 1, random, choice, below);
+            (void)add_sampled_light(p, v, light, 1, random, choice, below);
         }
 }
 
 static ONE_SIDE void add_lights(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,
                                 bool below) {
-    double random[3];
+    double random[3], hidden = 0;
     if (light_choice_is_every_one(lights)) {
         add_every_light(p, v, lights, choice, below);
         return;
     }
     sampler_3d(p->sampler, random);
+    const rgb before = p->radiance;
     int count = lights->receiver.draws;
     for (int i = 0; i < count; i++) {
         double expectation, place_on_light[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
         int light = light_choose(lights, (random[0] + i) / count, &expectation);
         if (light >= 0)
-            add_sampled_light(p, v, light, expectation, place_on_light, choice, below);
+            hidden += add_sampled_light(p, v, light, expectation, place_on_light, choice, below);
     }
+    if (path_is_at_first(p))
+        known_light_watch_chosen(p, hidden / count, rgb_brightness(rgb_add_scaled(p->radiance, -1, before)));
 }
 
 void direct_light_add(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice) {

@@ -148,7 +148,7 @@ static estimate_parts mean_parts(const estimate_half halves[ESTIMATE_HALVES]) {
     double share[ESTIMATE_HALVES];
     estimate_share_halves(halves, share);
     for (int i = 0; i < ESTIMATE_HALVES && halves[i].taken > 0; i++) {
-        double weight = halves[1].taken > 0 ? share[i] / halves[i].taken : 1;
+        double weight = share[i] / halves[i].taken;
         mean.indirect = rgb_add_scaled(mean.indirect, weight, halves[i].parts.indirect);
         mean.albedo = rgb_add_scaled(mean.albedo, weight, halves[i].parts.albedo);
     }

@@ -125,8 +125,7 @@ static rgb variance_of_cache(const estimate_half halves[ESTIMATE_HALVES], const 
 static rgb variance_of_known(const estimate_half halves[ESTIMATE_HALVES], const double share[ESTIMATE_HALVES]) {
     rgb error = {0, 0, 0};
     for (int i = 0; i < ESTIMATE_HALVES; i++)
-        if (halves[i].taken > 0)
-            error = rgb_add_scaled(error, share[i] / halves[i].taken, halves[i].known_error);
+        error = rgb_add_scaled(error, share[i] / halves[i].taken, halves[i].known_error);
     return rgb_multiply(error, error);
 }
 

@@ -95,6 +95,12 @@ static void watch(path *p, int light) {
     begin_controls(p, light + 1);
 }
 
+void known_light_watch_chosen(path *p, double hidden, double lit) {
+    begin_controls(p, 1);
+    p->controls[0].whole += hidden;
+    p->controls[0].lit += lit;
+}
+
 /* What the surface reflects of a light that is seen as a whole, for a throughput of 1. */
 static rgb reflected_whole(const path *p, const vertex *v, const scene_light *light, const unshadowed_light *whole,
                            bool glossy) {

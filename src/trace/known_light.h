@@ -29,6 +29,10 @@ void known_light_add(path *, const vertex *, sight_cell, const light_choice *);
 /* Takes what a sample finds, or would find without shadows, of a light that is known, and how bright it really is. */
 void known_light_subtract(path *, int light, rgb found, double lit);
 
+/* Where some of many lights are chosen, at a path's first point: takes how bright that would be which is hidden
+ * wholly, in the mean of the draws, and what was found. */
+void known_light_watch_chosen(path *, double hidden, double lit);
+
 /* Takes away what the last reflection finds, or would find without shadows, of the known lights. */
 void known_light_subtract_reflected(path *, const vertex *from, const path_hit *, rgb found);
 

@@ -9,7 +9,7 @@
 /* Direct light as if nothing cast shadows is known without sampling (trace/unshadowed.h). What the same samples would
  * find of it differs from it by `difference`, whose mean is 0; it may be added in any proportion. The best one is how
  * much of it is not shadowed, and that is about `lit / whole`: the brightness of what the samples find of it with
- * and without shadows. */
+ * and without shadows. Where lights are chosen from many, nothing is added: the first tells what of them is hidden. */
 typedef struct path_control {
     rgb difference;
     double lit, whole;

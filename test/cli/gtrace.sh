@@ -178,7 +178,11 @@ if [ -w /dev/full ]; then
     "$gtrace" -h room.rad <rays >/dev/full 2>err
     check "a full disk" test $? -eq 2
     check "... says so" grep -q "No space" err
+    check "a lost warning" sh -c "'$gtrace' -h huge.rad <rays >out 2>/dev/full; test \$? -eq 2 -a -s out"
 fi
+check "... on a closed stream" sh -c "'$gtrace' -h huge.rad <rays >out 2>&-; test \$? -eq 2 -a -s out"
+check "a closed stream that nothing is written to" sh -c "'$gtrace' -w- -h huge.rad <rays >out 2>&-; test \$? -eq 0 -a -s out"
+check "closed standard input and output" sh -c "! '$gtrace' -w- -h huge.rad <&- 2>err && ! '$gtrace' -w- -h huge.rad <rays >&- 2>>err && test \$(grep -c 'Bad file' err) -eq 2"
 ("$gtrace" -h -ab 1 room.rad 2>err <<<"$(for i in $(seq 100); do cat rays; done)"; echo $? >status) | head -1 >/dev/null
 check "a closed pipe" test "$(cat status)" -eq 2
 plan

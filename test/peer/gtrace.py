@@ -78,6 +78,9 @@ def cases():
     for sky in ["sky_clear", "sky_perez", "sky_picture"]:
         yield Case(sky + ", irradiance", sky + " terrace", terrace[::2], "-I -ab 1", "-ad 1024", repeat=64, samples=8192)
         yield Case(sky + ", seen", sky, around, "-ab 0", repeat=64)
+    yield Case("sky_perez_color, seen", "sky_perez_color", around, "-ab 0", repeat=64)
+    windows = np.random.default_rng(20261123).uniform([0, 0, 0], [5, 2, 0], (100, 3))
+    yield Case("glazing from both sides", "glazing", np.vstack([aim([2, -2, height], windows) for height in (1.5, -.4)]), "-ab 0", repeat=4)
     yield Case("luminaires", "luminaires", aim([0.5, -3, 2.5], floor[:, :3] * 0.7), "-ab 0", repeat=256)
     yield Case("luminaires, seen", "luminaires", aim([0.1, 0.2, 0.1], [[-0.8, -0.8, 2], [-0.7, -0.9, 2], [1.01, 1.02, 1.6], [1, -1.05, 1.8], [-1, 1, 2]]), "-ab 0", repeat=64)
     yield Case("screen", "screen", aim([0.5, -3, 2.5], floor[:, :3] * 0.7), "-ab 0 -st 1", repeat=256)

@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -219,11 +221,42 @@ static void closed_ball(void **state) {
     graze_scene_destroy(scene);
 }
 
+/* Lamps that one of them hides, so that few samples choose one that is seen: what is hidden is in the error, whether
+ * the answer is black or the ambient value. */
+static void one_lamp_hides_many(void **state) {
+    (void)state;
+    static char text[30000] = "void plastic m 0 0 5 .5 .5 .5 0 0 m " FLOOR "void light bright 0 0 3 10 10 10\n";
+    static const char lamp[] = "bright sphere lamp 0 0 4 0 0 2 .1\n";
+    graze_scene *scenes[2];
+    for (int i = 0; i < 500; i++) {
+        strcat(text, lamp);
+        if (i == 0)
+            scenes[0] = load_scene(text);
+    }
+    scenes[1] = load_scene(text);
+    for (int ambient = 0; ambient < 2; ambient++) {
+        graze_trace_settings s = graze_trace_defaults();
+        s.ambient_value = rgb_gray(0.01 * ambient);
+        graze_answer one, many;
+        graze_trace(scenes[0], &s, &slanted, 1, &one, NULL);
+        assert_true(one.standard_error.g < 1e-7 * one.value.g);
+        for (s.samples = 2; s.samples < 512; s.samples *= 2)
+            for (uint64_t stream = 2; stream < 12; stream++) {
+                graze_trace(scenes[1], &s, &slanted, stream, &many, NULL);
+                double off = fabs(many.value.g - one.value.g);
+                if (off > 4 * many.standard_error.g)
+                    fail_msg("%u samples: %g, off by %g +- %g", s.samples, many.value.g, off, many.standard_error.g);
+            }
+    }
+    graze_scene_destroy(scenes[0]);
+    graze_scene_destroy(scenes[1]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(panes_are_exact), cmocka_unit_test(nothing_but_suns), cmocka_unit_test(nothing_but_a_lamp),
         cmocka_unit_test(something_black), cmocka_unit_test(hidden_lamp),      cmocka_unit_test(not_settled),
-        cmocka_unit_test(as_without),      cmocka_unit_test(closed_ball),
+        cmocka_unit_test(as_without),      cmocka_unit_test(closed_ball),      cmocka_unit_test(one_lamp_hides_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

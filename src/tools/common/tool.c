@@ -8,11 +8,21 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Where a standard stream is closed, the next file that is opened would take its place, and messages be written into a
+ * picture. Such a stream then is open, but fails to be read or written, as it did. */
+static void occupy_closed_streams(void) {
+    static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+    for (int stream = 0; stream < 3; stream++)
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", modes[stream]) < 0)
+            return;
+}
+
 int tool_main(const option_table *table, int argc, char **argv, const graze_report *report,
               graze_status (*run)(void *user, const tool_arguments *, const graze_report *), void *user) {
     tool_arguments arguments = {.argc = argc, .argv = argv};
     options_arguments *words = NULL;
     options_outcome outcome = OPTIONS_RUN;
+    occupy_closed_streams();
     /* A closed pipe, or a file at its limit, is a failed write, which is reported like any other. */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
@@ -22,7 +32,8 @@ int tool_main(const option_table *table, int argc, char **argv, const graze_repo
     if (status == GRAZE_OK && outcome == OPTIONS_RUN)
         status = run(user, &arguments, report);
     options_arguments_destroy(words);
-    return (int)status;
+    /* A warning that is lost, as on a full disk, leaves only this to tell of it. */
+    return (int)(status == GRAZE_OK && ferror(stderr) ? GRAZE_SYSTEM_ERROR : status);
 }
 
 static void drop_warnings(void *user, graze_severity severity, const char *text) {
