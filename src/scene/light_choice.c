@@ -83,6 +83,9 @@ void light_choice_prepare(light_choice *choice, const graze_scene *scene, const 
     const light_tree *tree = &scene->light_tree;
     choice->tree = tree;
     choice->receiver = *receiver;
+    choice->windows.count = 0;
+    if (scene->windows && !rgb_is_black(receiver->ambient_diffuse))
+        window_choice_prepare(&choice->windows, scene, receiver->point, receiver->surface->n, receiver->window_draws);
     if (light_choice_is_every_one(choice)) {
         prepare_every(choice, scene);
         return;
@@ -93,6 +96,7 @@ void light_choice_prepare(light_choice *choice, const graze_scene *scene, const 
 
 void light_choice_none(light_choice *choice) {
     choice->tree = NULL;
+    choice->windows.count = 0;
     choice->root.candidates = 0;
 }
 

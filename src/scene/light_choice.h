@@ -5,6 +5,7 @@
 
 #include "scene/light_weights.h"
 #include "scene/scene.h"
+#include "scene/windows.h"
 
 /* A surface point that asks for light. */
 typedef struct light_receiver {
@@ -12,6 +13,7 @@ typedef struct light_receiver {
     const graze_surface *surface;        /* its frame, lobe and view; to be kept as long as the choice */
     rgb diffuse, glossy;                 /* reflectance for LIGHT_DIRECT lights */
     rgb ambient_diffuse, ambient_glossy; /* for LIGHT_AMBIENT ones; black where they are not wanted */
+    int window_draws;                    /* how often a sky is looked for in windows */
     int draws;                           /* how many lights are chosen, or: */
 } light_receiver;
 
@@ -31,6 +33,7 @@ typedef struct light_choice {
     int every; /* where every one is sampled, so many of them: light_choice_count */
     light_weights_input input;
     light_weights root;
+    window_choice windows; /* where a sky may be seen that is among the lights */
 } light_choice;
 
 void light_choice_prepare(light_choice *, const graze_scene *, const light_receiver *);

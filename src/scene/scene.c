@@ -16,6 +16,7 @@
 #include "scene/model_choice.h"
 #include "scene/shapes.h"
 #include "scene/sight_cells.h"
+#include "scene/windows.h"
 
 const char *scene_name(const graze_scene *scene, int primitive) {
     return scene->primitives[primitive].id;
@@ -138,14 +139,11 @@ static bool sources_overlap(const scene_light *a, const scene_light *b) {
     return angle >= PI || between <= 2 * sin(angle / 2);
 }
 
-/* A source as wide as this is a sky. */
-#define SKY_HALF_ANGLE (PI / 6)
-
 /* What is asked of sources again and again. */
 static void survey_sources(graze_scene *scene) {
     for (size_t i = scene->first_source; i < scene->light_count; i++) {
         scene_light *light = &scene->lights[i];
-        scene->has_sky = scene->has_sky || light->half_angle >= SKY_HALF_ANGLE;
+        scene->has_sky = scene->has_sky || scene_light_is_sky(light);
         light->alone = true;
         for (size_t k = scene->first_source; k < i && light->alone; k++)
             light->alone = !sources_overlap(light, &scene->lights[k]);
@@ -260,6 +258,8 @@ static graze_status build_geometry(scene_builder *b) {
     }
     graze_status status = geometry_build(&scene->geometry, groups, count, scene_builder_threads(b), b->report);
     free(groups);
+    if (status == GRAZE_OK)
+        status = scene_windows_find(scene, b->report);
     if (status != GRAZE_OK || !needs_sights(scene))
         return status;
     status = geometry_prepare_sights(scene->geometry, b->report);

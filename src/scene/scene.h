@@ -20,6 +20,9 @@
 /* Of a light, and of the ambient value: sums and squares of radiances then stay far from overflow. */
 #define SCENE_LARGEST_RADIANCE 1e100
 
+/* A source as wide as this is a sky: 30 degrees, in radians. */
+#define SCENE_SKY_HALF_ANGLE 0.5235987755982988
+
 /* How a light takes part in the lighting of a point. */
 typedef enum light_role {
     LIGHT_NONE,    /* only seen: glow with a negative radius */
@@ -55,6 +58,11 @@ typedef struct scene_light {
 /* Whether it is LIGHT_AMBIENT, if anything, to all points. */
 static inline bool light_is_ambient(const scene_light *light) {
     return light->glow && (light->glow_radius == 0 || light->only_seen);
+}
+
+/* Whether it is a source as wide as a sky. */
+static inline bool scene_light_is_sky(const scene_light *light) {
+    return !light->shape && light->half_angle >= SCENE_SKY_HALF_ANGLE;
 }
 
 typedef enum scene_material_kind {
@@ -151,6 +159,7 @@ struct graze_scene {
     struct scene_cuts *cuts;                      /* by antimatter (scene/cuts.h); null: none, nor mist in copies */
     struct scene_balls *balls;                    /* (scene/balls.h) that throw lights back; null: none */
     struct sight_cells *sight_cells;              /* null: none */
+    struct scene_windows *windows;                /* (scene/windows.h) that show the sky; null: none */
     scene_light *lights; /* the scene's shapes, the sources, and glows in copies; and behind, what is only seen */
     size_t light_count;
     size_t seen_light_count;

@@ -15,6 +15,10 @@
 #define CHOSEN_FIRST 4
 #define CHOSEN_LATER 2
 
+/* The sky is looked for in so many windows. */
+#define WINDOWS_FIRST 4
+#define WINDOWS_LATER 1
+
 static int draws(const path *p, const light_receiver *receiver) {
     bool first = p->depth == 0;
     if (light_choice_count(p->context->scene, receiver) <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER))
@@ -42,6 +46,7 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
             receiver.ambient_glossy = v->shading.specular;
     }
     receiver.draws = draws(p, &receiver);
+    receiver.window_draws = p->depth == 0 ? WINDOWS_FIRST : WINDOWS_LATER;
     light_choice_prepare(lights, context->scene, &receiver);
 }
 
@@ -81,6 +86,7 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
             receiver.ambient_glossy = s->transmitted_specular;
     }
     receiver.draws = draws(p, &receiver);
+    receiver.window_draws = p->depth == 0 ? WINDOWS_FIRST : WINDOWS_LATER;
     light_choice_prepare(&beyond->lights, p->context->scene, &receiver);
 }
 
@@ -154,18 +160,18 @@ static ONE_SIDE reflectance reflectance_for_light(const path *p, const vertex *v
     return r;
 }
 
-/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. Tells the
- * brightness that something hides wholly. */
-static ONE_SIDE double add_sampled_light(path *p, const vertex *v, int light, double expectation,
-                                         const double random[2], const lobe_choice *choice, bool below) {
-    light_sample sample = light_draw(p->context->scene, v->point, p->length, light, random);
-    if (sample.light < 0 || rgb_is_black(sample.radiance))
-        return 0;
-    double cosine = vec3_dot(sample.direction, v->shading.n), density = expectation * sample.density;
-    if (below)
-        cosine = -cosine;
-    if (cosine <= 0 || (v->leans && (vec3_dot(sample.direction, v->normal) <= 0) != below))
-        return 0;
+static ONE_SIDE bool is_above(const vertex *v, vec3 direction, bool below) {
+    return (below ? -1 : 1) * vec3_dot(direction, v->shading.n) > 0 &&
+           !(v->leans && (vec3_dot(direction, v->normal) <= 0) != below);
+}
+
+/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average; all samples that
+ * might find it have the `density` together. Tells the brightness that something hides wholly. */
+static ONE_SIDE double add_sample(path *p, const vertex *v, const light_sample *drawn, double expectation,
+                                  double density, const lobe_choice *choice, bool below) {
+    const light_sample sample = *drawn;
+    const int light = sample.light;
+    double cosine = fabs(vec3_dot(sample.direction, v->shading.n));
     reflectance r = reflectance_for_light(p, v, &sample, density, choice, below);
     rgb reflected = rgb_multiply(rgb_add(r.diffuse, r.glossy), sample.radiance);
     rare_gloss rare = !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
@@ -192,6 +198,25 @@ static ONE_SIDE double add_sampled_light(path *p, const vertex *v, int light, do
     return lit ? 0 : rgb_brightness(whole);
 }
 
+/* How densely windows are looked through in a direction of a light. */
+static inline double density_in_windows(const graze_scene *scene, const light_choice *lights, int light,
+                                        vec3 direction) {
+    return lights->windows.count > 0 && scene_light_is_sky(&scene->lights[light])
+               ? window_density(&lights->windows, direction)
+               : 0;
+}
+
+static ONE_SIDE double add_sampled_light(path *p, const vertex *v, const light_choice *lights, int light,
+                                         double expectation, const double random[2], const lobe_choice *choice,
+                                         bool below) {
+    const graze_scene *scene = p->context->scene;
+    const light_sample sample = light_draw(scene, v->point, p->length, light, random);
+    if (sample.light < 0 || rgb_is_black(sample.radiance) || !is_above(v, sample.direction, below))
+        return 0;
+    double density = expectation * sample.density + density_in_windows(scene, lights, light, sample.direction);
+    return add_sample(p, v, &sample, expectation, density, choice, below);
+}
+
 /* Where a number in [0,1) is after some steps of the given length around the circle of these numbers. Steps of 1/g and
  * 1/g^2 with g^3 = g + 1 cover the square evenly. */
 static double step(double random, int steps, double length) {
@@ -205,7 +230,7 @@ static ONE_SIDE void add_every_light(path *p, const vertex *v, const light_choic
     for (int light = 0; light < lights->every; light++)
         if (!known_light_is_settled(p, light) && light_expectation(lights, light) > 0) {
             sampler_2d(p->sampler, random);
-            (void)add_sampled_light(p, v, light, 1, random, choice, below);
+            (void)add_sampled_light(p, v, lights, light, 1, random, choice, below);
         }
 }
 
@@ -223,18 +248,63 @@ static ONE_SIDE void add_lights(path *p, const vertex *v, const light_choice *li
         double expectation, place_on_light[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
         int light = light_choose(lights, (random[0] + i) / count, &expectation);
         if (light >= 0)
-            hidden += add_sampled_light(p, v, light, expectation, place_on_light, choice, below);
+            hidden += add_sampled_light(p, v, lights, light, expectation, place_on_light, choice, below);
     }
     if (path_is_at_first(p))
         known_light_watch_chosen(p, hidden / count, rgb_brightness(rgb_add_scaled(p->radiance, -1, before)));
 }
 
+/* The sky as a window shows it. */
+static ONE_SIDE void add_sky_in_window(path *p, const vertex *v, const light_choice *lights, int which,
+                                       const double random[2], const lobe_choice *choice, bool below) {
+    const graze_scene *scene = p->context->scene;
+    light_sample sample = {.distance = GEOMETRY_FAR};
+    if (!window_draw(&lights->windows, which, random, &sample.direction) || !is_above(v, sample.direction, below))
+        return;
+    sample.light = light_source_towards(scene, sample.direction);
+    if (sample.light < 0 || !scene_light_is_sky(&scene->lights[sample.light]))
+        return;
+    const scene_light *light = &scene->lights[sample.light];
+    sample.radiance =
+        light_patterned(light, light->radiance, v->point, sample.direction, sample.direction, GEOMETRY_FAR, p->length);
+    sample.density = window_density(&lights->windows, sample.direction);
+    double other = light_expectation(lights, sample.light);
+    if (other > 0)
+        other *= light_density(scene, v->point, sample.light, sample.direction, v->point, v->normal);
+    if (sample.density > 0 && !rgb_is_black(sample.radiance))
+        (void)add_sample(p, v, &sample, 1, sample.density + other, choice, below);
+}
+
+static ONE_SIDE void add_windows(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,
+                                 bool below) {
+    const window_choice *windows = &lights->windows;
+    const int draws = lights->receiver.window_draws;
+    double random[3];
+    if (windows->count <= draws) {
+        for (int i = 0; i < windows->count; i++) {
+            sampler_2d(p->sampler, random);
+            add_sky_in_window(p, v, lights, i, random, choice, below);
+        }
+        return;
+    }
+    sampler_3d(p->sampler, random);
+    for (int i = 0; i < draws; i++) {
+        const double place_in_window[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
+        add_sky_in_window(p, v, lights, window_choose(windows, (random[0] + i) / draws), place_in_window, choice,
+                          below);
+    }
+}
+
 void direct_light_add(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice) {
     add_lights(p, v, lights, choice, false);
+    if (lights->windows.count > 0)
+        add_windows(p, v, lights, choice, false);
 }
 
 void direct_light_add_below(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice) {
     add_lights(p, v, lights, choice, true);
+    if (lights->windows.count > 0)
+        add_windows(p, v, lights, choice, true);
 }
 
 rgb direct_light_reflectance(const path *p, const vertex *v, const light_sample *sample, double density,

@@ -1,0 +1,233 @@
+/* Finding windows, and sampling them by solid angle. */
+#include "scene/windows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/angle.h"
+#include "base/even_steps.h"
+#include "geometry/crossing.h"
+#include "geometry/solid_angle.h"
+
+/* Of more panes the largest are looked at: every point asks all that are windows how much it sees of them. */
+#define MOST_WINDOWS 256
+
+/* From each side of a pane so many rays look for the sky. */
+#define LOOKS 64
+
+/* A pane is a window if so much of its outside sees the sky, and no more than this part of that does inside. */
+#define LEAST_SKY 0.02
+#define DARKER    0.5
+
+/* Windows are turned inside. */
+typedef struct scene_window {
+    shape shape;
+    vec3 middle;
+    double radius;
+} scene_window;
+
+typedef struct scene_windows {
+    int count;
+    scene_window of[];
+} scene_windows;
+
+static bool may_be_window(const graze_scene *scene, size_t i) {
+    const scene_surface *surface = &scene->surfaces[i];
+    const scene_material *m = &scene->materials[surface->material];
+    return scene->shapes[i].kind == SHAPE_POLYGON && surface->material >= 0 && m->kind == SCENE_REFLECTOR &&
+           m->reflector.kind == GRAZE_GLASS;
+}
+
+/* A point of a triangle. */
+static vec3 place_in(const shape *s, const uint32_t triangle[3], double u, double v) {
+    const vec3 *p = s->polygon.vertices;
+    double a = 1 - sqrt(u), b = (1 - a) * v;
+    return vec3_add(vec3_add(vec3_scale(a, p[triangle[0]]), vec3_scale(b, p[triangle[1]])),
+                    vec3_scale(1 - a - b, p[triangle[2]]));
+}
+
+static bool is_sky_there(const graze_scene *scene, vec3 direction) {
+    for (size_t i = scene->first_source; i < scene->first_copied; i++)
+        if (scene_light_is_sky(&scene->lights[i]) &&
+            vec3_dot(direction, scene->lights[i].center) >= cos(scene->lights[i].half_angle))
+            return true;
+    return false;
+}
+
+/* How much of the directions from one side of a pane, by their cosines, show the sky. */
+static double sky_seen(const graze_scene *scene, int64_t surface, const shape *s, double side) {
+    frame axes = frame_around(vec3_scale(side, s->polygon.normal));
+    int seen = 0;
+    for (int i = 0; i < LOOKS; i++) {
+        double sine = sqrt((i + 0.5) / LOOKS), turn = 2 * PI * even_step(i, GOLDEN_SECTION);
+        vec3 direction = frame_to_world(&axes, vec3_make(sine * cos(turn), sine * sin(turn), sqrt(1 - sine * sine)));
+        geometry_ray ray = {.origin = place_in(s, s->polygon.triangles[i % s->polygon.triangle_count],
+                                               even_step(i + 0.5, 0.7548776662), even_step(i + 0.5, 0.5698402910)),
+                            .direction = direction,
+                            .far = GEOMETRY_FAR,
+                            .from = surface};
+        seen += is_sky_there(scene, direction) && !geometry_occluded_but_for_panes(scene->geometry, &ray, -1, NULL);
+    }
+    return (double)seen / LOOKS;
+}
+
+static uint32_t vertices_of(const shape *s) {
+    uint32_t most = s->polygon.vertex_count;
+    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            most = s->polygon.triangles[i][k] >= most ? s->polygon.triangles[i][k] + 1 : most;
+    return most;
+}
+
+/* Turns a polygon's front to its other side: the outline goes the other way round. */
+static bool turn(shape *s, arena *memory) {
+    const uint32_t count = vertices_of(s), outline = s->polygon.vertex_count;
+    vec3 *vertices = arena_allocate(memory, count * sizeof *vertices);
+    uint32_t(*triangles)[3] = arena_allocate(memory, s->polygon.triangle_count * sizeof *triangles);
+    if (!vertices || !triangles)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        vertices[i] = s->polygon.vertices[i < outline ? outline - 1 - i : i];
+    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t corner = s->polygon.triangles[i][2 - k];
+            triangles[i][k] = corner < outline ? outline - 1 - corner : corner;
+        }
+    s->polygon.vertices = vertices;
+    s->polygon.triangles = (const uint32_t(*)[3])triangles;
+    s->polygon.normal = vec3_negate(s->polygon.normal);
+    s->polygon.offset = -s->polygon.offset;
+    return true;
+}
+
+/* Adds a pane, if it is a window. False: there is no memory. */
+static bool add_pane(graze_scene *scene, scene_windows *windows, int index) {
+    shape s = scene->shapes[index];
+    double before = sky_seen(scene, index, &s, 1), behind = sky_seen(scene, index, &s, -1);
+    if (fmax(before, behind) < LEAST_SKY || fmin(before, behind) > DARKER * fmax(before, behind))
+        return true;
+    if ((before > behind && !turn(&s, scene->memory)) || !shape_prepare_light(&s, scene->memory))
+        return false;
+    scene_window *w = &windows->of[windows->count++];
+    w->shape = s;
+    w->middle = s.polygon.center;
+    w->radius = 0;
+    for (uint32_t i = 0; i < s.polygon.vertex_count; i++)
+        w->radius = fmax(w->radius, vec3_length(vec3_subtract(s.polygon.vertices[i], w->middle)));
+    return true;
+}
+
+typedef struct pane {
+    double area;
+    int surface;
+} pane;
+
+/* The largest first. */
+static int by_area(const void *a, const void *b) {
+    const pane *x = a, *y = b;
+    return x->area != y->area ? (x->area > y->area ? -1 : 1) : x->surface - y->surface;
+}
+
+/* The panes of the scene's own, largest first; null without memory. */
+static pane *find_panes(const graze_scene *scene, size_t *count) {
+    *count = 0;
+    for (size_t i = 0; i < scene->surface_count; i++)
+        *count += may_be_window(scene, i);
+    pane *panes = malloc((*count + 1) * sizeof *panes);
+    *count = 0;
+    for (size_t i = 0; i < scene->surface_count && panes; i++)
+        if (may_be_window(scene, i))
+            panes[(*count)++] = (pane){scene->shapes[i].polygon.area, (int)i};
+    if (panes)
+        qsort(panes, *count, sizeof *panes, by_area);
+    return panes;
+}
+
+graze_status scene_windows_find(graze_scene *scene, const graze_report *report) {
+    size_t count;
+    if (!scene->has_sky || !scene->has_panes)
+        return GRAZE_OK;
+    pane *panes = find_panes(scene, &count);
+    count = count < MOST_WINDOWS ? count : MOST_WINDOWS;
+    scene_windows *windows = arena_allocate(scene->memory, sizeof *windows + count * sizeof *windows->of);
+    bool ok = panes && windows;
+    if (ok)
+        windows->count = 0;
+    for (size_t i = 0; ok && i < count; i++)
+        ok = add_pane(scene, windows, panes[i].surface);
+    free(panes);
+    if (ok && windows->count > 0)
+        scene->windows = windows;
+    return ok ? GRAZE_OK : report_out_of_memory(report);
+}
+
+/* About how much light comes in from a window; 0: it is not seen from inside, above the horizon. */
+static double weight_of(const scene_window *w, vec3 point, vec3 normal) {
+    vec3 towards = vec3_subtract(w->middle, point);
+    double before = -vec3_dot(w->shape.polygon.normal, towards), height = vec3_dot(normal, towards);
+    double square = vec3_dot(towards, towards), radius2 = w->radius * w->radius;
+    if (before <= 0 || height <= -w->radius)
+        return 0;
+    double cosine = fmax((height + 0.5 * w->radius) / sqrt(square + radius2), 0.05);
+    return w->shape.polygon.area * cosine * (before + 0.1 * w->radius) / ((square + radius2) * sqrt(square + radius2));
+}
+
+/* Keeps what has most weight. */
+static void insert(window_choice *c, int index, double weight) {
+    int at = c->count < WINDOWS_SEEN_MOST ? c->count++ : WINDOWS_SEEN_MOST - 1;
+    if (c->count == WINDOWS_SEEN_MOST && at == WINDOWS_SEEN_MOST - 1 && c->share[at] >= weight && c->index[at] >= 0)
+        return;
+    for (; at > 0 && c->share[at - 1] < weight; at--) {
+        c->share[at] = c->share[at - 1];
+        c->index[at] = c->index[at - 1];
+    }
+    c->share[at] = weight;
+    c->index[at] = index;
+}
+
+void window_choice_prepare(window_choice *c, const graze_scene *scene, vec3 point, vec3 normal, int draws) {
+    const scene_windows *windows = scene->windows;
+    double sum = 0;
+    c->windows = windows;
+    c->point = point;
+    c->count = 0;
+    c->share[WINDOWS_SEEN_MOST - 1] = 0;
+    c->index[WINDOWS_SEEN_MOST - 1] = -1;
+    for (int i = 0; i < windows->count; i++) {
+        double weight = weight_of(&windows->of[i], point, normal);
+        if (weight > 0)
+            insert(c, i, weight);
+    }
+    for (int i = 0; i < c->count; i++)
+        sum += c->share[i];
+    for (int i = 0; i < c->count; i++) {
+        c->share[i] /= sum;
+        c->expectation[i] = c->count <= draws ? 1 : draws * c->share[i];
+    }
+}
+
+int window_choose(const window_choice *c, double random) {
+    int i = 0;
+    while (i + 1 < c->count && random >= c->share[i])
+        random -= c->share[i++];
+    return i;
+}
+
+bool window_draw(const window_choice *c, int which, const double random[2], vec3 *direction) {
+    const solid_angle_sample s =
+        solid_angle_draw(&c->windows->of[c->index[which]].shape, c->point, random[0], random[1]);
+    *direction = s.direction;
+    return s.density > 0;
+}
+
+double window_density(const window_choice *c, vec3 direction) {
+    double sum = 0, distance;
+    for (int i = 0; i < c->count; i++) {
+        const shape *s = &c->windows->of[c->index[i]].shape;
+        if (shape_front_crossing(s, c->point, direction, &distance))
+            sum += c->expectation[i] * solid_angle_density(s, c->point, direction,
+                                                           vec3_add_scaled(c->point, distance, direction),
+                                                           s->polygon.normal);
+    }
+    return sum;
+}
