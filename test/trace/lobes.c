@@ -392,6 +392,7 @@ static void directions_are_drawn(void **state) {
         {{.diffuse = 0.5}, 4, GRAZE_STRATEGY_MIS},
         {{.specular = 0.5}, 4, GRAZE_STRATEGY_MIS},
         {{.diffuse = 0.5, .specular = 0.5}, 4, GRAZE_STRATEGY_MIS},
+        {{.diffuse = 0.4, .specular = 0.4}, 4, GRAZE_STRATEGY_MIS},
         {{.diffuse = 1e-9, .specular = 1}, 4, GRAZE_STRATEGY_MIS},
         {{.specular = 1}, 3, GRAZE_STRATEGY_MIS},
         {{.specular = 1}, 3, GRAZE_STRATEGY_UNWEIGHTED},
@@ -413,7 +414,10 @@ static void directions_are_drawn(void **state) {
             graze_lobe lobe = random[3] < cases[i].choice.diffuse ? GRAZE_LOBE_DIFFUSE : GRAZE_LOBE_GLOSSY;
             vec3 expected = drawn(&a, lobe, cases[i].numbers, random);
             a.random = copy;
-            if (!lobes_reflect(&a.p, &a.v, NULL, &cases[i].choice, &direction))
+            bool goes_on = lobes_reflect(&a.p, &a.v, NULL, &cases[i].choice, &direction);
+            if (random[3] >= cases[i].choice.diffuse + cases[i].choice.specular)
+                assert_false(goes_on);
+            if (!goes_on)
                 continue;
             taken++;
             assert_close(vec3_dot(direction, expected), 1, 1e-12);
@@ -546,6 +550,50 @@ static void leaning_normals(void **state) {
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
 }
 
+/* Mirrors that lights are sampled in do not end what the last reflection looks for; but light samples find what one of
+ * them shows alone, and on the viewer's side. */
+static void images(void **state) {
+    (void)state;
+    const struct {
+        graze_lobe last;
+        int mirror;
+        bool noted, any, image, refracted;
+    } cases[] = {
+        {GRAZE_LOBE_DIFFUSE, -1, true, true, true, false},
+        {GRAZE_LOBE_GLOSSY, -1, true, true, true, false},
+        {GRAZE_LOBE_TRANSMITTED_DIFFUSE, -1, true, true, true, true},
+        {GRAZE_LOBE_DIFFUSE, 0, true, true, true, true},
+        {GRAZE_LOBE_DIFFUSE, 1, true, true, true, true},
+        {GRAZE_LOBE_NONE, -1, true, true, false, false},
+        {GRAZE_LOBE_MIRROR, -1, true, true, false, false},
+        {GRAZE_LOBE_DIFFUSE, -1, false, true, false, false},
+        {GRAZE_LOBE_DIFFUSE, -1, true, false, false, false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        vec3 direction;
+        scene_surface surface = {.mirrors = cases[i].noted};
+        arrival a = begin();
+        a.scene.surfaces = &surface;
+        a.scene.surface_count = 1;
+        a.scene.mirror_count = cases[i].any;
+        a.p.last.lobe = cases[i].last;
+        a.p.last.mirror = cases[i].mirror;
+        a.p.last.direct = rgb_gray(0.5);
+        settle(&a, plastic(0, 0.5, 0));
+        a.v.shading.specular = rgb_gray(0.5);
+        a.v.surface = 0;
+        assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_specular, &direction));
+        assert_close(direction.z, 0.8, 1e-12);
+        assert_gray(a.p.throughput, 0.5);
+        assert_int_equal(a.p.depth, 1);
+        assert_int_equal(a.p.last.lobe, cases[i].image ? cases[i].last : GRAZE_LOBE_MIRROR);
+        assert_int_equal(a.p.last.mirror, cases[i].image ? 0 : -1);
+        assert_int_equal(a.p.last.refracted, cases[i].refracted);
+        if (cases[i].image)
+            assert_gray(a.p.last.direct, 0.25);
+    }
+}
+
 /* A pane: the path is let through as if nothing were there, but for what is left of it. */
 static void panes_let_through(void **state) {
     (void)state;
@@ -625,6 +673,20 @@ static void refraction(void **state) {
     }
 }
 
+/* What is scattered on the other side is not let through. */
+static void diffuse_beyond(void **state) {
+    (void)state;
+    vec3 direction;
+    arrival a = begin();
+    settle(&a, (graze_material){.kind = GRAZE_TRANS, .color = rgb_gray(0.5), .transmission = 0.5});
+    gathering here = {.vertex = a.v};
+    other_side beyond = {.lobes = only_diffuse};
+    assert_true(lobes_go_on(&a.p, &here, &beyond, &direction));
+    assert_true(direction.z < 0 && a.p.scattered && a.p.depth == 1 && a.p.ambient_depth == 1 && a.p.passages == 0);
+    assert_int_equal(a.p.last.lobe, GRAZE_LOBE_TRANSMITTED_DIFFUSE);
+    assert_gray(a.p.throughput, a.v.shading.transmitted_diffuse.g);
+}
+
 /* Both of what a pane shows and mirrors are put by, the path itself left as it is. */
 static void branches(void **state) {
     (void)state;
@@ -670,6 +732,8 @@ int main(void) {
         cmocka_unit_test(panes_let_through),
         cmocka_unit_test(refraction),
         cmocka_unit_test(branches),
+        cmocka_unit_test(diffuse_beyond),
+        cmocka_unit_test(images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
