@@ -99,9 +99,12 @@ static double likelihood(const path *p, const vertex *v, const light_sample *sam
     const graze_scene *scene = p->context->scene;
     const scattering *last = &p->last;
     if (last->refracted || !last->vertex || v->leans || v->surface < 0 || v->surface >= (int64_t)scene->surface_count ||
-        !shape_is_flat(&scene->shapes[v->surface]) || scene->materials[scene->surfaces[v->surface].material].modifiers)
+        !shape_is_flat(&scene->shapes[v->surface]))
         return 1;
+    const scene_material *m = &scene->materials[scene->surfaces[v->surface].material];
     const shape *s = &scene->shapes[v->surface];
+    if (m->modifiers || m->kind != SCENE_REFLECTOR)
+        return 1;
     vec3 from = last->vertex->point;
     if (last->mirror >= 0) {
         const shape_plane plane = shape_plane_of(&scene->shapes[last->mirror]);
