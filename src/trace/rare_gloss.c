@@ -2,6 +2,7 @@
 #include "trace/rare_gloss.h"
 
 #include "base/angle.h"
+#include "geometry/crossing.h"
 #include "trace/context.h"
 #include "trace/mirrored_light.h"
 
@@ -52,16 +53,84 @@ static double brightness_by_gloss(const path *p, const vertex *v, bool beyond, c
     return rgb_brightness(rgb_multiply(rgb_multiply(p->throughput, color), sample->radiance));
 }
 
+/* Half vectors lean no farther, in roughnesses, where a lobe has anything worth the name. */
+#define REACH_OF_LOBE 3.5
+
+/* Half its largest extent, or of a source the sine of half its angle. */
+static double half_extent(const scene_light *light) {
+    vec3 lower, upper;
+    if (!light->shape)
+        return sin(light->half_angle);
+    shape_bounds(light->shape, &lower, &upper);
+    return vec3_length(vec3_subtract(upper, lower)) / 2;
+}
+
+/* Where a flat surface would have to be to show the light, by its middle, to a point. */
+typedef struct image_place {
+    vec3 at;
+    double way;   /* to there; not positive: nowhere */
+    double slope; /* the cosine of the way with the normal */
+    double reach; /* so far around that it still might, as the light is wide and the lobe rough */
+} image_place;
+
+static image_place place_of_image(const path *p, const vertex *v, vec3 from, const light_sample *sample) {
+    const scene_light *light = &p->context->scene->lights[sample->light];
+    const vec3 n = v->normal;
+    const bool mirror = v->shading.specular_lobe == GRAZE_LOBE_MIRROR;
+    vec3 towards = vec3_add_scaled(sample->direction, -2 * vec3_dot(n, sample->direction), n);
+    double wide = half_extent(light);
+    if (light->shape) {
+        towards = vec3_subtract(vec3_add_scaled(v->point, sample->distance, towards), from);
+        wide /= vec3_length(towards);
+        towards = vec3_normalize(towards);
+    }
+    double rough = mirror ? 0 : fmax(v->shading.lobe.alpha_x, v->shading.lobe.alpha_y);
+    image_place image = {.slope = -vec3_dot(n, towards)};
+    image.way = vec3_dot(n, vec3_subtract(from, v->point)) / image.slope;
+    image.reach = image.way * (wide + 2 * REACH_OF_LOBE * rough) / image.slope;
+    image.at = vec3_add_scaled(from, image.way, towards);
+    return image;
+}
+
+/* How much likelier than in the mean over all directions the surface shows the light to the point that the path was
+ * scattered at, or to its image in the mirror since then. Of flat ones that are no other than they are in space, it is
+ * known where they would have to be: 0 if they are not there. If they are, it is seen in a part of them. */
+static double likelihood(const path *p, const vertex *v, const light_sample *sample) {
+    const graze_scene *scene = p->context->scene;
+    const scattering *last = &p->last;
+    if (last->refracted || !last->vertex || v->leans || v->surface < 0 || v->surface >= (int64_t)scene->surface_count ||
+        !shape_is_flat(&scene->shapes[v->surface]))
+        return 1;
+    const scene_material *m = &scene->materials[scene->surfaces[v->surface].material];
+    const shape *s = &scene->shapes[v->surface];
+    if (m->modifiers || m->kind != SCENE_REFLECTOR)
+        return 1;
+    vec3 from = last->vertex->point;
+    if (last->mirror >= 0) {
+        const shape_plane plane = shape_plane_of(&scene->shapes[last->mirror]);
+        from = vec3_add_scaled(from, -2 * vec3_dot(plane.normal, vec3_subtract(from, plane.point)), plane.normal);
+    }
+    const image_place image = place_of_image(p, v, from, sample);
+    if (!(image.way > 0))
+        return 1;
+    if (shape_flat_contains(s, image.at))
+        return fmax(PI * image.way * image.way / (image.slope * shape_area(s)), 1);
+    return shape_outline_distance(s, image.at) <= image.reach ? 1 : 0;
+}
+
 /* Of many lights, one that is hardly ever chosen counts as one chosen at random: it would else be expected to give
  * much, once in a long while. */
 void rare_gloss_expect(path *p, const vertex *v, const light_sample *sample, double expectation) {
     bool beyond = is_beyond(v, sample->direction);
     if (!is_rare(v, beyond, sample->density))
         return;
+    double likely = beyond ? 1 : likelihood(p, v, sample), share = share_of_directions(v, beyond, sample->density);
+    if (likely == 0)
+        return;
+    likely = fmin(likely, 1 / share);
     double often = fmax(expectation, 1.0 / p->context->scene->light_count);
     double cosine = fabs(vec3_dot(sample->direction, v->shading.n)), times = 1 / (often * sample->density);
-    expect(p, v, brightness_by_gloss(p, v, beyond, sample) * times * cosine / PI,
-           share_of_directions(v, beyond, sample->density));
+    expect(p, v, brightness_by_gloss(p, v, beyond, sample) * times * cosine / PI * likely, share * likely);
 }
 
 /* Whether a ray comes to the light: panes on its way let it through. */

@@ -285,6 +285,34 @@ static void what_mirrors_may_show_is_in_the_error(void **state) {
     }
 }
 
+/* A flat glossy plate throws sunlight on a part of the floor, which few paths find. It is in the error there, and not
+ * where the plate cannot throw any. */
+static void intervals_cover_what_a_plate_throws(void **state) {
+    (void)state;
+    graze_scene *scene = load_scene("void light l 0 0 3 5e6 5e6 5e6 l source sun 0 0 4 1 0 1 .53\n"
+                                    "void plastic g 0 0 5 .3 .3 .3 0 0 g ring floor 0 0 8 0 0 0 0 0 1 0 9\n"
+                                    "void metal m 0 0 5 .8 .8 .8 .95 .02\n"
+                                    "m polygon plate 0 0 12 0 -.5 1 0 .5 1 0 .5 2 0 -.5 2\n");
+    graze_trace_settings s = graze_trace_defaults();
+    s.ambient_bounces = 1;
+    s.error = 0.02;
+    enum { RAYS = 32, TIMES = 30 };
+    int covered[2] = {0, 0}, asked[2] = {0, 0};
+    for (int i = 0; i < RAYS; i++) {
+        double x = 0.2 + 3.8 * i / RAYS;
+        const graze_ray ray = {.origin = {x, 0.1, 0.01}, .direction = {0, 0, -1}};
+        const graze_answer truth = truth_of(scene, s, &ray, 1u << 16, TIMES);
+        bool thrown = x > 0.8 && x < 2.3;
+        covered[thrown] += count_covering(scene, &s, &ray, &truth, TIMES);
+        asked[thrown] += TIMES;
+        assert_true(x < 3 || truth.standard_error.g < 1e-3 * truth.value.g);
+    }
+    printf("# %.1f%% covered where it is thrown, %.1f%% elsewhere\n", 100.0 * covered[1] / asked[1],
+           100.0 * covered[0] / asked[0]);
+    assert_true(covered[1] >= 0.9 * asked[1] && covered[0] >= 0.93 * asked[0]);
+    graze_scene_destroy(scene);
+}
+
 /* A glossy ball that shows a window, which few diffuse reflections meet: with as few samples as do for the rest, most
  * answers would have met nothing. The same where a disc of glass is before the window. */
 static void intervals_cover_a_ball_by_the_window(void **state) {
@@ -339,6 +367,7 @@ int main(void) {
                                        cmocka_unit_test(what_mirrors_may_show_is_in_the_error),
                                        cmocka_unit_test(intervals_cover_what_shines_through),
                                        cmocka_unit_test(what_clear_bodies_throw_is_in_the_error),
+                                       cmocka_unit_test(intervals_cover_what_a_plate_throws),
                                        cmocka_unit_test(intervals_cover_a_ball_by_the_window),
                                        cmocka_unit_test(zeros_are_exact_where_all_is_dark)};
     return cmocka_run_group_tests(tests, NULL, NULL);
