@@ -165,19 +165,25 @@ static ONE_SIDE bool is_above(const vertex *v, vec3 direction, bool below) {
            !(v->leans && (vec3_dot(direction, v->normal) <= 0) != below);
 }
 
-/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average; all samples that
- * might find it have the `density` together. Tells the brightness that something hides wholly. */
-static ONE_SIDE double add_sample(path *p, const vertex *v, const light_sample *drawn, double expectation,
-                                  double density, const lobe_choice *choice, bool below) {
+/* Directions of a sky are drawn in three ways: of all of it, in windows, and by reflection. Of each counts the square
+ * of its density (power heuristic): a balance would leave so much to those of all of it that in a room few samples
+ * would mostly miss their share, and not tell. */
+
+/* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. `other` is the
+ * density of the other way to draw it, if it has two. Tells the brightness that something hides wholly. */
+static ONE_SIDE double add_sample(path *p, const vertex *v, const light_sample *drawn, double expectation, double other,
+                                  const lobe_choice *choice, bool below) {
     const light_sample sample = *drawn;
     const int light = sample.light;
     double cosine = fabs(vec3_dot(sample.direction, v->shading.n));
+    double own = expectation * sample.density, density = other > 0 ? hypot(own, other) : own;
     reflectance r = reflectance_for_light(p, v, &sample, density, choice, below);
     rgb reflected = rgb_multiply(rgb_add(r.diffuse, r.glossy), sample.radiance);
     rare_gloss rare = !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
     if (rare != RARE_GLOSS_FLAT && rgb_is_black(reflected))
         return 0;
-    rgb weight = rgb_scale(cosine / density, p->throughput), whole = rgb_multiply(weight, reflected);
+    rgb weight = rgb_scale(cosine / own * power_heuristic(own, other), p->throughput),
+        whole = rgb_multiply(weight, reflected);
     rgb passed = rgb_gray(1);
     bool lit = light_is_visible(p, v, &sample, &passed);
     rgb found = rgb_multiply(whole, passed);
@@ -213,8 +219,8 @@ static ONE_SIDE double add_sampled_light(path *p, const vertex *v, const light_c
     const light_sample sample = light_draw(scene, v->point, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance) || !is_above(v, sample.direction, below))
         return 0;
-    double density = expectation * sample.density + density_in_windows(scene, lights, light, sample.direction);
-    return add_sample(p, v, &sample, expectation, density, choice, below);
+    return add_sample(p, v, &sample, expectation, density_in_windows(scene, lights, light, sample.direction), choice,
+                      below);
 }
 
 /* Where a number in [0,1) is after some steps of the given length around the circle of these numbers. Steps of 1/g and
@@ -272,7 +278,7 @@ static ONE_SIDE void add_sky_in_window(path *p, const vertex *v, const light_cho
     if (other > 0)
         other *= light_density(scene, v->point, sample.light, sample.direction, v->point, v->normal);
     if (sample.density > 0 && !rgb_is_black(sample.radiance))
-        (void)add_sample(p, v, &sample, 1, sample.density + other, choice, below);
+        (void)add_sample(p, v, &sample, 1, other, choice, below);
 }
 
 static ONE_SIDE void add_windows(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,

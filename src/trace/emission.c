@@ -27,7 +27,7 @@ static double found_weight(const path *p, const path_hit *hit, light_role role) 
         other *= light_density(p->context->scene, last->lights->receiver.point, hit->light, hit->direction, hit->point,
                                hit->normal);
     if (last->lights->windows.count > 0 && scene_light_is_sky(&p->context->scene->lights[hit->light]))
-        other += window_density(&last->lights->windows, hit->direction);
+        other = hypot(other, window_density(&last->lights->windows, hit->direction));
     return power_heuristic(last->density, other);
 }
 

@@ -1,0 +1,131 @@
+/* Windows: which panes are, to which side they are turned, and how points choose among them. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/angle.h"
+#include "graze/brdf_light.h"
+#include "scene/windows.h"
+#include "support/dice.h"
+#include "support/scene_text.h"
+
+#define GLASS  "void glass clear 0 0 3 .96 .96 .96 void plastic w 0 0 5 .5 .5 .5 0 0 void glow g 0 0 4 1 1 1 0\n"
+#define SKY    "g source sky 0 0 4 0 0 1 180\n"
+#define GROUND "w polygon ground 0 0 12 -50 -50 -.1 50 -50 -.1 50 50 -.1 -50 50 -.1\n"
+
+/* 4 x 4 x 3; open at y = 0, but for what is put there. */
+#define ROOM                                                                                                           \
+    "w polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0 w polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"                \
+    "w polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3 w polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"                    \
+    "w polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3\n"
+
+static window_choice choice_at(const graze_scene *scene, vec3 point, vec3 normal, int draws) {
+    window_choice c = {.count = 0};
+    assert_non_null(scene->windows);
+    window_choice_prepare(&c, scene, point, normal, draws);
+    return c;
+}
+
+static bool has_windows(const char *text) {
+    graze_scene *scene = load_scene(text);
+    bool has = scene->windows != NULL;
+    graze_scene_destroy(scene);
+    return has;
+}
+
+/* Seen from inside, whichever way the pane's own normal points; not from outside. */
+static void windows_are_seen_from_inside(void **state) {
+    (void)state;
+    const char *const panes[] = {"clear polygon p 0 0 12 0 0 0 4 0 0 4 0 3 0 0 3\n",
+                                 "clear polygon p 0 0 12 0 0 0 0 0 3 4 0 3 4 0 0\n"};
+    for (int i = 0; i < 2; i++) {
+        char text[2000];
+        (void)snprintf(text, sizeof text, GLASS SKY GROUND ROOM "%s", panes[i]);
+        graze_scene *scene = load_scene(text);
+        const vec3 up = {0, 0, 1}, down = {0, 0, -1}, away = {0, 1, 0};
+        assert_int_equal(choice_at(scene, vec3_make(2, 2, 0), up, 4).count, 1);
+        assert_int_equal(choice_at(scene, vec3_make(2, 2, 3), down, 4).count, 1);
+        assert_int_equal(choice_at(scene, vec3_make(2, -2, 0), up, 4).count, 0);
+        assert_int_equal(choice_at(scene, vec3_make(2, 3, 1), away, 4).count, 0);
+        graze_scene_destroy(scene);
+    }
+}
+
+static void what_is_no_window(void **state) {
+    (void)state;
+#define PANE "clear polygon p 0 0 12 0 0 0 4 0 0 4 0 3 0 0 3\n"
+    assert_true(has_windows(GLASS SKY GROUND ROOM PANE));
+    assert_false(has_windows(GLASS GROUND ROOM PANE));  /* no sky */
+    assert_false(has_windows(GLASS SKY GROUND PANE));   /* a pane in the open */
+    assert_false(has_windows(GLASS SKY GROUND ROOM PANE /* a wall before it */
+                             "w polygon front 0 0 12 -1 -.01 -1 -1 -.01 4 5 -.01 4 5 -.01 -1\n"));
+    assert_false(has_windows(GLASS SKY GROUND ROOM)); /* an opening */
+    assert_false(has_windows("void glass clear 0 0 3 .96 .96 .96 void glow g 0 0 4 1 1 1 0 g source sun 0 0 4 0 -1 1 9 "
+                             "void plastic w 0 0 5 .5 .5 .5 0 0 " GROUND ROOM PANE));
+}
+
+/* The densities of the draws are what they are drawn by: their integral, and that of the cosine, over all directions by
+ * draws and by the windows' closed forms. Of more windows than a point looks at, those that it sees most of. */
+static void densities_are_of_the_draws(void **state) {
+    (void)state;
+    char text[6000];
+    int length = snprintf(text, sizeof text, GLASS SKY GROUND ROOM);
+    enum { PANES = 12 };
+    for (int i = 0; i < PANES; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "clear polygon p%d 0 0 12 %g 0 %d %g 0 %d %g 0 %d %g 0 %d\n", i, i % 4 * 1.0, i / 4,
+                           i % 4 + 0.875, i / 4, i % 4 + 0.875, i / 4 + 1, i % 4 * 1.0, i / 4 + 1);
+    graze_scene *scene = load_scene(text);
+    dice d = {5};
+    const vec3 point = {1.2, 1, 0}, up = {0, 0, 1};
+    for (int draws = 1; draws <= WINDOWS_SEEN_MOST; draws += WINDOWS_SEEN_MOST - 1) {
+        const window_choice c = choice_at(scene, point, up, draws);
+        assert_int_equal(c.count, WINDOWS_SEEN_MOST);
+        double expected = 0, irradiance = 0;
+        for (int i = 0; i < c.count; i++) {
+            assert_true(i == 0 || c.share[i] <= c.share[i - 1]);
+            expected += c.expectation[i];
+        }
+        assert_true(fabs(expected - (draws == 1 ? 1 : c.count)) < 1e-12);
+        enum { MANY = 100000 };
+        for (int i = 0; i < MANY; i++) {
+            const double random[2] = {roll(&d), roll(&d)};
+            int which = draws == 1 ? window_choose(&c, roll(&d)) : i % c.count;
+            vec3 direction;
+            assert_true(window_draw(&c, which, random, &direction));
+            double density = window_density(&c, direction);
+            assert_true(density > 0 && direction.y < 0);
+            irradiance += direction.z / density * (draws == 1 ? 1 : c.count) / MANY;
+        }
+        double truth = 0;
+        for (int i = 0; i < PANES; i++) {
+            bool looked_at = false;
+            vec3 corners[4] = {
+                {i % 4, 0, i / 4}, {i % 4 + 0.875, 0, i / 4}, {i % 4 + 0.875, 0, i / 4 + 1}, {i % 4, 0, i / 4 + 1}};
+            for (int k = 0; k < c.count; k++)
+                looked_at = looked_at || c.index[k] == i;
+            for (int k = 0; k < 4; k++)
+                corners[k] = vec3_subtract(corners[k], point);
+            if (looked_at)
+                truth += PI * graze_diffuse_polygon(corners, 4);
+        }
+        if (!(fabs(irradiance - truth) < 0.005 * truth))
+            fail_msg("%g, but %g", irradiance, truth);
+    }
+    graze_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(windows_are_seen_from_inside),
+        cmocka_unit_test(what_is_no_window),
+        cmocka_unit_test(densities_are_of_the_draws),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
