@@ -434,18 +434,16 @@ static void assert_gray(rgb found, double value) {
     assert_close(found.b, value, 1e-12);
 }
 
-static void paths_go_on(void **state) {
+static void a_mirror_draws_nothing(void **state) {
     (void)state;
     vec3 direction;
     arrival a = begin();
     a.p.throughput = rgb_gray(0.5);
     settle(&a, plastic(0, 0.5, 0));
     a.v.shading.specular = rgb_gray(0.5);
-    const arrival mirror = a;
-    /* A mirror draws nothing. */
-    a.p.context = &a.context;
+    const uint32_t drawn = a.random.group;
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_specular, &direction));
-    assert_int_equal(a.random.group, mirror.random.group);
+    assert_int_equal(a.random.group, drawn);
     assert_close(direction.x, -0.6, 1e-12);
     assert_close(direction.z, 0.8, 1e-12);
     assert_gray(a.p.throughput, 0.25);
@@ -454,21 +452,22 @@ static void paths_go_on(void **state) {
     assert_true(a.p.last.mirror == -1 && a.p.last.vertex == &a.v && !a.p.searching);
     assert_gray(a.p.last.direct, 0.25);
     assert_gray(a.p.last.indirect, 0.25);
-    /* Diffuse reflection, with half the chance: twice the weight. */
-    a = begin();
+}
+
+/* With half the chance, twice the weight. */
+static void diffuse_reflections_are_drawn(void **state) {
+    (void)state;
+    vec3 direction;
+    arrival a = begin();
     a.p.throughput = rgb_gray(0.5);
     settle(&a, plastic(0.5, 0, 0));
     a.v.ambient = rgb_gray(0.25);
     lobe_choice half = {.diffuse = 0.5};
     int taken = 0;
-    const arrival before = a;
-    for (int i = 0; i < 4096; i++) {
-        a.p = before.p;
-        a.p.context = &a.context;
-        a.p.sampler = &a.random;
-        a.context.scene = &a.scene;
-        a.context.settings = &a.settings;
-        a.random = sampler_start(sampler_key(1, 2, 3), (uint32_t)i);
+    const path before = a.p;
+    for (uint32_t i = 0; i < 4096; i++) {
+        a.p = before;
+        a.random = sampler_start(sampler_key(1, 2, 3), i);
         if (!lobes_reflect(&a.p, &a.v, NULL, &half, &direction))
             continue;
         taken++;
@@ -483,8 +482,13 @@ static void paths_go_on(void **state) {
     a.p.scattered = true;
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
     assert_false(a.p.last.first);
-    /* Where it ends only what shines is found. */
-    a = begin();
+}
+
+/* Where a path ends only what shines is found. */
+static void ends_find_lights(void **state) {
+    (void)state;
+    vec3 direction;
+    arrival a = begin();
     settle(&a, plastic(0.5, 0, 0));
     lobe_choice ending = {.diffuse = 1, .diffuse_ends = true};
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &ending, &direction));
@@ -501,8 +505,12 @@ static void paths_go_on(void **state) {
     settle(&a, plastic(0.5, 0, 0));
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
     assert_false(a.p.last.ambient);
-    /* Too much to be light. */
-    a = begin();
+}
+
+static void too_much_is_no_light(void **state) {
+    (void)state;
+    vec3 direction;
+    arrival a = begin();
     a.p.throughput = rgb_gray(4e30);
     settle(&a, plastic(0.5, 0, 0));
     assert_false(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
@@ -515,10 +523,15 @@ static void paths_go_on(void **state) {
     assert_false(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
     a.p.throughput = rgb_gray(1e30);
     assert_true(lobes_reflect(&a.p, &a.v, NULL, &only_diffuse, &direction));
-    /* Reflections that may meet lights which no light sample finds are searches. */
+}
+
+/* Reflections that may meet lights which no light sample finds. */
+static void some_reflections_are_searches(void **state) {
+    (void)state;
+    vec3 direction;
     for (int brdf = 0; brdf < 2; brdf++)
         for (int mirrors = 0; mirrors < 2; mirrors++) {
-            a = begin();
+            arrival a = begin();
             settle(&a, plastic(0.5, 0, 0));
             a.settings.strategy = brdf ? GRAZE_STRATEGY_BRDF : GRAZE_STRATEGY_MIS;
             a.scene.has_mirrors = mirrors;
@@ -651,11 +664,9 @@ static void refraction(void **state) {
         gathering here = {.vertex = a.v, .lobes = {.specular = 0.25}};
         other_side beyond = {.lobes = {.specular = 0.75}};
         int through = 0;
-        const arrival before = a;
+        const path before = a.p;
         for (uint32_t i = 0; i < 4096; i++) {
-            a.p = before.p;
-            a.p.context = &a.context;
-            a.p.sampler = &a.random;
+            a.p = before;
             a.random = sampler_start(sampler_key(1, 2, 3), i);
             assert_true(lobes_go_on(&a.p, &here, &beyond, &direction));
             if (direction.z > 0) {
@@ -727,7 +738,11 @@ int main(void) {
         cmocka_unit_test(both_sides_share),
         cmocka_unit_test(both_sides_end),
         cmocka_unit_test(directions_are_drawn),
-        cmocka_unit_test(paths_go_on),
+        cmocka_unit_test(a_mirror_draws_nothing),
+        cmocka_unit_test(diffuse_reflections_are_drawn),
+        cmocka_unit_test(ends_find_lights),
+        cmocka_unit_test(too_much_is_no_light),
+        cmocka_unit_test(some_reflections_are_searches),
         cmocka_unit_test(leaning_normals),
         cmocka_unit_test(panes_let_through),
         cmocka_unit_test(refraction),
