@@ -181,7 +181,9 @@ static void add_chosen(path *p, const virtual_lights *all, const virtual_lights_
         const virtual_light *l = found->count > VIRTUAL_LIGHTS_KEPT ? &other : &found->kept[i];
         double expectation = virtual_lights_expectation(found, l);
         path_unmet_at *part = note_part(p, all->vertex, l, expectation);
-        for (sum += expectation; next < sum; next++) {
+        sum += expectation;
+        while (next < sum) {
+            next += 1;
             sampler_3d(p->sampler, random);
             bool met = add_from(p, all, l, expectation, random, choice);
             if (part)
