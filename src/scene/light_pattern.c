@@ -29,8 +29,8 @@ static rgb mean_of_shape(const scene_light *light) {
     int count = 0;
     for (int i = 0; i < POINTS * DIRECTIONS; i++) {
         vec3 point = vec3_add_scaled(middle, distance, point_about(i / DIRECTIONS));
-        solid_angle_sample s =
-            solid_angle_draw(light->shape, point, even_step(i + 0.5, 0.7548776662), even_step(i + 0.5, 0.5698402910));
+        double u = even_step(i + 0.5, EVEN_STEP_X), v = even_step(i + 0.5, EVEN_STEP_Y);
+        solid_angle_sample s = solid_angle_draw(light->shape, point, u, v);
         if (s.density == 0)
             continue;
         vec3 hit = vec3_add_scaled(point, s.distance, s.direction), normal = shape_normal(light->shape, hit);

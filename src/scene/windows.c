@@ -61,8 +61,8 @@ static double sky_seen(const graze_scene *scene, int64_t surface, const shape *s
     for (int i = 0; i < LOOKS; i++) {
         double sine = sqrt((i + 0.5) / LOOKS), turn = 2 * PI * even_step(i, GOLDEN_SECTION);
         vec3 direction = frame_to_world(&axes, vec3_make(sine * cos(turn), sine * sin(turn), sqrt(1 - sine * sine)));
-        geometry_ray ray = {.origin = place_in(s, s->polygon.triangles[i % s->polygon.triangle_count],
-                                               even_step(i + 0.5, 0.7548776662), even_step(i + 0.5, 0.5698402910)),
+        double u = even_step(i + 0.5, EVEN_STEP_X), v = even_step(i + 0.5, EVEN_STEP_Y);
+        geometry_ray ray = {.origin = place_in(s, s->polygon.triangles[i % s->polygon.triangle_count], u, v),
                             .direction = direction,
                             .far = GEOMETRY_FAR,
                             .from = surface};

@@ -2,6 +2,7 @@
 #include "trace/direct_light.h"
 
 #include "base/angle.h"
+#include "base/even_steps.h"
 #include "trace/known_light.h"
 #include "trace/mist.h"
 #include "trace/observer.h"
@@ -223,11 +224,11 @@ static ONE_SIDE double add_sampled_light(path *p, const vertex *v, const light_c
                       below);
 }
 
-/* Where a number in [0,1) is after some steps of the given length around the circle of these numbers. Steps of 1/g and
- * 1/g^2 with g^3 = g + 1 cover the square evenly. */
-static double step(double random, int steps, double length) {
-    double x = random + steps * length;
-    return x - floor(x);
+/* Where the sample of this number is looked for in a square, if the first is at two random numbers. */
+static void place_in_square(const double random[2], int number, double at[2]) {
+    const double x = random[0] + number * EVEN_STEP_X, y = random[1] + number * EVEN_STEP_Y;
+    at[0] = x - floor(x);
+    at[1] = y - floor(y);
 }
 
 static ONE_SIDE void add_every_light(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,
@@ -251,8 +252,9 @@ static ONE_SIDE void add_lights(path *p, const vertex *v, const light_choice *li
     const rgb before = p->radiance;
     int count = lights->receiver.draws;
     for (int i = 0; i < count; i++) {
-        double expectation, place_on_light[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
+        double expectation, place_on_light[2];
         int light = light_choose(lights, (random[0] + i) / count, &expectation);
+        place_in_square(&random[1], i, place_on_light);
         if (light >= 0)
             hidden += add_sampled_light(p, v, lights, light, expectation, place_on_light, choice, below);
     }
@@ -295,7 +297,8 @@ static ONE_SIDE void add_windows(path *p, const vertex *v, const light_choice *l
     }
     sampler_3d(p->sampler, random);
     for (int i = 0; i < draws; i++) {
-        const double place_in_window[2] = {step(random[1], i, 0.7548776662), step(random[2], i, 0.5698402910)};
+        double place_in_window[2];
+        place_in_square(&random[1], i, place_in_window);
         add_sky_in_window(p, v, lights, window_choose(windows, (random[0] + i) / draws), place_in_window, choice,
                           below);
     }
