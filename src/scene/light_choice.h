@@ -13,7 +13,7 @@ typedef struct light_receiver {
     const graze_surface *surface;        /* its frame, lobe and view; to be kept as long as the choice */
     rgb diffuse, glossy;                 /* reflectance for LIGHT_DIRECT lights */
     rgb ambient_diffuse, ambient_glossy; /* for LIGHT_AMBIENT ones; black where they are not wanted */
-    int window_draws;                    /* how often a sky is looked for in windows */
+    int window_draws;                    /* how often a sky is looked for in windows; 0: not */
     int draws;                           /* how many lights are chosen, or: */
 } light_receiver;
 
@@ -33,9 +33,10 @@ typedef struct light_choice {
     int every; /* where every one is sampled, so many of them: light_choice_count */
     light_weights_input input;
     light_weights root;
-    window_choice windows; /* where a sky may be seen that is among the lights */
+    window_choice windows; /* where the sky is looked for, beside sampling it as a light */
 } light_choice;
 
+/* For a point that asks; windows are looked for if its diffuse reflection of ambient light is wanted. */
 void light_choice_prepare(light_choice *, const graze_scene *, const light_receiver *);
 
 /* For a point that nothing shines on. */

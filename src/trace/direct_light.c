@@ -16,15 +16,18 @@
 #define CHOSEN_FIRST 4
 #define CHOSEN_LATER 2
 
-/* The sky is looked for in so many windows. */
+/* The sky is looked for in so many windows, at the first point and at later ones. */
 #define WINDOWS_FIRST 4
 #define WINDOWS_LATER 1
 
-static int draws(const path *p, const light_receiver *receiver) {
+/* Sets how many of the lights and windows that the receiver asks for are sampled. */
+static void set_draws(const path *p, light_receiver *receiver) {
     bool first = p->depth == 0;
     if (light_choice_count(p->context->scene, receiver) <= (first ? PATH_FEW_LIGHTS : EVERY_LIGHT_LATER))
-        return LIGHT_EVERY_ONE;
-    return first ? CHOSEN_FIRST : CHOSEN_LATER;
+        receiver->draws = LIGHT_EVERY_ONE;
+    else
+        receiver->draws = first ? CHOSEN_FIRST : CHOSEN_LATER;
+    receiver->window_draws = first ? WINDOWS_FIRST : WINDOWS_LATER;
 }
 
 void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) {
@@ -46,8 +49,7 @@ void direct_light_prepare(const path *p, const vertex *v, light_choice *lights) 
         if (glossy && !v->gloss_is_ambient)
             receiver.ambient_glossy = v->shading.specular;
     }
-    receiver.draws = draws(p, &receiver);
-    receiver.window_draws = p->depth == 0 ? WINDOWS_FIRST : WINDOWS_LATER;
+    set_draws(p, &receiver);
     light_choice_prepare(lights, context->scene, &receiver);
 }
 
@@ -86,8 +88,7 @@ void direct_light_prepare_below(const path *p, const vertex *v, other_side *beyo
         if (glossy && !v->transmitted_gloss_is_ambient)
             receiver.ambient_glossy = s->transmitted_specular;
     }
-    receiver.draws = draws(p, &receiver);
-    receiver.window_draws = p->depth == 0 ? WINDOWS_FIRST : WINDOWS_LATER;
+    set_draws(p, &receiver);
     light_choice_prepare(&beyond->lights, p->context->scene, &receiver);
 }
 
