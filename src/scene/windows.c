@@ -19,11 +19,9 @@
 #define LEAST_SKY 0.02
 #define DARKER    0.5
 
-/* Windows are turned inside. */
 typedef struct scene_window {
-    shape shape;
-    vec3 middle;
-    double radius;
+    shape shape;   /* a polygon, turned inside */
+    double radius; /* about its center */
 } scene_window;
 
 typedef struct scene_windows {
@@ -32,10 +30,8 @@ typedef struct scene_windows {
 } scene_windows;
 
 static bool may_be_window(const graze_scene *scene, size_t i) {
-    const scene_surface *surface = &scene->surfaces[i];
-    const scene_material *m = &scene->materials[surface->material];
-    return scene->shapes[i].kind == SHAPE_POLYGON && surface->material >= 0 && m->kind == SCENE_REFLECTOR &&
-           m->reflector.kind == GRAZE_GLASS;
+    const scene_material *m = &scene->materials[scene->surfaces[i].material];
+    return scene->shapes[i].kind == SHAPE_POLYGON && m->kind == SCENE_REFLECTOR && m->reflector.kind == GRAZE_GLASS;
 }
 
 /* A point of a triangle. */
@@ -110,10 +106,9 @@ static bool add_pane(graze_scene *scene, scene_windows *windows, int index) {
         return false;
     scene_window *w = &windows->of[windows->count++];
     w->shape = s;
-    w->middle = s.polygon.center;
     w->radius = 0;
     for (uint32_t i = 0; i < s.polygon.vertex_count; i++)
-        w->radius = fmax(w->radius, vec3_length(vec3_subtract(s.polygon.vertices[i], w->middle)));
+        w->radius = fmax(w->radius, vec3_length(vec3_subtract(s.polygon.vertices[i], s.polygon.center)));
     return true;
 }
 
@@ -163,7 +158,7 @@ graze_status scene_windows_find(graze_scene *scene, const graze_report *report) 
 
 /* About how much light comes in from a window; 0: it is not seen from inside, above the horizon. */
 static double weight_of(const scene_window *w, vec3 point, vec3 normal) {
-    vec3 towards = vec3_subtract(w->middle, point);
+    vec3 towards = vec3_subtract(w->shape.polygon.center, point);
     double before = -vec3_dot(w->shape.polygon.normal, towards), height = vec3_dot(normal, towards);
     double square = vec3_dot(towards, towards), radius2 = w->radius * w->radius;
     if (before <= 0 || height <= -w->radius)

@@ -5,35 +5,33 @@
 
 #include "scene/scene.h"
 
-struct scene_builder;
-
 /* A point looks at so many windows, those that it sees most of. */
 enum { WINDOWS_SEEN_MOST = 8 };
 
 /* Finds the panes that one side of sees much of a sky, and the other not. The scene's geometry must be there. */
 graze_status scene_windows_find(graze_scene *, const graze_report *);
 
-/* Windows as a point sees them. */
+/* Windows as a point sees them, those that it sees most of first. */
 typedef struct window_choice {
     const struct scene_windows *windows;
     vec3 point;
     int count;
-    int index[WINDOWS_SEEN_MOST];
+    int index[WINDOWS_SEEN_MOST];          /* of each among the scene's */
     double share[WINDOWS_SEEN_MOST];       /* about in proportion to the light that comes in; their sum is 1 */
     double expectation[WINDOWS_SEEN_MOST]; /* how often each is sampled, on the average */
 } window_choice;
 
-/* Of a point in front of a surface, by that one's normal: chooses windows, from which `draws` are taken; each one, if
- * these are as many. */
+/* Of a point in front of a surface, by that one's normal: chooses windows, from which `draws` are taken, at least one;
+ * each window once if there are no more of them. The scene must have windows. */
 void window_choice_prepare(window_choice *, const graze_scene *, vec3 point, vec3 normal, int draws);
 
-/* Which window of the choice a number in [0,1) falls on. */
+/* Which window of the choice, which has some, a number in [0,1) falls on. */
 int window_choose(const window_choice *, double random);
 
 /* Draws a direction of a window of the choice by two numbers in [0,1). False: nothing of it is seen. */
 bool window_draw(const window_choice *, int which, const double random[2], vec3 *direction);
 
-/* The densities of all draws together, per unit solid angle, for a direction. */
+/* The densities of all draws together, per unit solid angle, for a unit direction; 0 beside the windows. */
 double window_density(const window_choice *, vec3 direction);
 
 #endif
