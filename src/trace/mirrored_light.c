@@ -170,15 +170,12 @@ static path_unmet_at *note_part(const path *p, const vertex *v, const virtual_li
 static void add_chosen(path *p, const virtual_lights *all, const virtual_lights_survey *found,
                        const lobe_choice *choice) {
     virtual_lights left = *all;
-    virtual_light other;
     double random[3] = {0}, sum = 0, next;
     if (virtual_lights_draw_lots(found))
         random[0] = sampler_1d(p->sampler);
     next = random[0];
     for (int i = 0; i < found->count; i++) {
-        if (found->count > VIRTUAL_LIGHTS_KEPT)
-            (void)virtual_lights_next(&left, &other);
-        const virtual_light *l = found->count > VIRTUAL_LIGHTS_KEPT ? &other : &found->kept[i];
+        const virtual_light *l = found->count > VIRTUAL_LIGHTS_KEPT ? virtual_lights_next(&left) : &found->kept[i];
         double expectation = virtual_lights_expectation(found, l);
         path_unmet_at *part = note_part(p, all->vertex, l, expectation);
         sum += expectation;
@@ -211,18 +208,17 @@ static double density_of(const path *p, const path_hit *hit) {
     int bounced = p->ambient_depth - (p->last.lobe == GRAZE_LOBE_DIFFUSE);
     const virtual_lights all = virtual_lights_of(p->context, p->last.vertex, bounced);
     virtual_lights left = all;
-    virtual_light l;
-    bool found = false;
-    while (!found && virtual_lights_next(&left, &l))
-        found = l.sight.mirror == m && (l.light < 0 || l.light == hit->light);
-    if (!found)
+    const virtual_light *l = virtual_lights_next(&left);
+    while (l && (l->sight.mirror != m || (l->light >= 0 && l->light != hit->light)))
+        l = virtual_lights_next(&left);
+    if (!l)
         return 0;
     virtual_lights_survey among;
     virtual_lights_look(&among, all, &p->worth);
-    double expectation = virtual_lights_expectation(&among, &l) * virtual_light_chance(&all, &l, hit->light);
-    return expectation == 0
-               ? 0
-               : expectation * light_density(scene, l.sight.image, hit->light, hit->direction, hit->point, hit->normal);
+    double expectation = virtual_lights_expectation(&among, l) * virtual_light_chance(&all, l, hit->light);
+    return expectation == 0 ? 0
+                            : expectation * light_density(scene, l->sight.image, hit->light, hit->direction, hit->point,
+                                                          hit->normal);
 }
 
 double mirrored_light_weight(const path *p, const path_hit *hit) {

@@ -3,8 +3,6 @@
 
 #include "trace/context.h"
 
-enum { NEXT_MIRROR = -1 };
-
 bool virtual_lights_paths_see(const graze_scene *scene, const scene_mirror *m) {
     return scene->surfaces[scene->mirror_surfaces[m->first]].mirrors;
 }
@@ -35,37 +33,49 @@ virtual_lights virtual_lights_of(const path_context *context, const vertex *v, i
                             .bounced = bounced,
                             .ambient = context_samples_glows(context->settings) && (glossy || matte),
                             .panes = glossy || matte,
-                            .light = NEXT_MIRROR};
+                            .light = (int)context->scene->light_count};
 }
 
-bool virtual_lights_next(virtual_lights *all, virtual_light *l) {
+/* Goes on to the next mirror that may show something; false: there are no more. */
+static bool next_mirror(virtual_lights *all) {
     const graze_scene *scene = all->context->scene;
-    const scene_mirrored_light *lights = scene->mirrored_lights;
-    for (;;) {
-        if (all->light == NEXT_MIRROR) {
-            if (all->next == scene->mirror_count)
-                return false;
-            if (!sees(all, &scene->mirrors[all->next++], &l->sight))
-                continue;
+    while (all->next < scene->mirror_count)
+        if (sees(all, &scene->mirrors[all->next++], &all->now.sight)) {
             all->light = 0;
-            l->light = -1;
-            l->weight = l->sight.share * l->sight.reflects;
-            if (!lights) {
-                all->light = NEXT_MIRROR;
-                return true;
-            }
+            return true;
         }
-        for (int count = (int)scene->light_count; all->light < count;) {
-            l->light = all->light++;
-            const scene_mirrored_light *light = &lights[l->light];
-            if (light->ambient && (!all->ambient || is_left_to_paths(scene, l->sight.mirror)))
-                continue;
-            l->weight = scene_mirror_shows(&l->sight, light);
-            if (l->weight > 0)
-                return true;
-        }
-        all->light = NEXT_MIRROR;
+    return false;
+}
+
+/* Goes on to the next light that the mirror shows; false: there are no more. */
+static bool next_in_mirror(virtual_lights *all) {
+    const graze_scene *scene = all->context->scene;
+    virtual_light *l = &all->now;
+    while (all->light < (int)scene->light_count) {
+        l->light = all->light++;
+        const scene_mirrored_light *light = &scene->mirrored_lights[l->light];
+        if (light->ambient && (!all->ambient || is_left_to_paths(scene, l->sight.mirror)))
+            continue;
+        l->weight = scene_mirror_shows(&l->sight, light);
+        if (l->weight > 0)
+            return true;
     }
+    return false;
+}
+
+const virtual_light *virtual_lights_next(virtual_lights *all) {
+    virtual_light *l = &all->now;
+    if (all->context->scene->mirrored_lights) {
+        while (!next_in_mirror(all))
+            if (!next_mirror(all))
+                return NULL;
+        return l;
+    }
+    if (!next_mirror(all))
+        return NULL;
+    l->light = -1;
+    l->weight = l->sight.share * l->sight.reflects;
+    return l;
 }
 
 /* What is faint is sampled as often as is worth it: of a pane, at the first point, so many times the share of light
@@ -94,16 +104,16 @@ static double worth_of(const virtual_light *l, const virtual_lights_worth *worth
 }
 
 void virtual_lights_look(virtual_lights_survey *found, virtual_lights all, const virtual_lights_worth *worth) {
-    virtual_light l;
+    const virtual_light *l;
     found->count = 0;
     found->sum = found->often = 0;
     found->worth = *worth;
-    while (virtual_lights_next(&all, &l)) {
+    while ((l = virtual_lights_next(&all))) {
         if (found->count < VIRTUAL_LIGHTS_KEPT)
-            found->kept[found->count] = l;
+            found->kept[found->count] = *l;
         found->count++;
-        found->sum += l.weight;
-        found->often += worth_of(&l, worth);
+        found->sum += l->weight;
+        found->often += worth_of(l, worth);
     }
 }
 

@@ -5,10 +5,10 @@
 #include "scene/mirrors.h"
 #include "trace/path_state.h"
 
-/* A light in a mirror; -1: any of many. */
+/* A light in a mirror. */
 typedef struct virtual_light {
-    int light;
-    double weight;
+    int light;     /* -1: any of many */
+    double weight; /* about in proportion to what it gives */
     scene_mirror_sight sight;
 } virtual_light;
 
@@ -20,26 +20,30 @@ typedef struct virtual_lights {
     bool ambient; /* light that counts as ambient is looked for */
     bool panes;   /* and what panes show */
     size_t next;  /* mirror */
-    int light;    /* the next one in the mirror that is seen; or negative: in the next mirror */
+    int light;    /* the next one in the mirror before that */
+    virtual_light now;
 } virtual_lights;
 
-/* What panes show lights diffuse surfaces only where a path that is reflected diffusely would find it, as in Radiance:
- * hence `bounced`. */
+/* From the first one on. What panes show lights diffuse surfaces only where a path that is reflected diffusely would
+ * find it, as in Radiance: hence `bounced`. */
 virtual_lights virtual_lights_of(const path_context *, const vertex *, int bounced);
 
-/* The next one that may be seen; false: there are no more. */
-bool virtual_lights_next(virtual_lights *, virtual_light *);
+/* The next one that may be seen, until the one after it is asked for; null: there are no more. */
+const virtual_light *virtual_lights_next(virtual_lights *);
 
-/* How many there are, their weights' sum, and how often any of them is to be sampled. So many are kept. */
+/* So many are kept. */
 enum { VIRTUAL_LIGHTS_KEPT = 8 };
 
+/* All that a vertex may see. */
 typedef struct virtual_lights_survey {
     int count;
-    double sum, often;
+    double sum;   /* of their weights */
+    double often; /* how often any of them is worth to be sampled */
     virtual_lights_worth worth;
-    virtual_light kept[VIRTUAL_LIGHTS_KEPT];
+    virtual_light kept[VIRTUAL_LIGHTS_KEPT]; /* the first ones */
 } virtual_lights_survey;
 
+/* Finds out about all that virtual_lights_next would give. */
 void virtual_lights_look(virtual_lights_survey *, virtual_lights, const virtual_lights_worth *);
 
 /* What they are worth at a vertex that the path has come to, where other lights have been sampled. */
