@@ -90,7 +90,7 @@ IN_PLACE void look_at_balls(query *q, const few_balls *b, int from, const rays *
              above(radius + end_of(q) + ray->coincident, middle));
     for (int i = from; met && !q->found_any; i++, met >>= 1)
         if (met & 1)
-            query_offer_curved(q, (unsigned)i);
+            (void)query_offer_curved(q, (unsigned)i);
 }
 
 IN_PLACE void look_through(query *q) {

@@ -111,11 +111,11 @@ bool query_offer(query *);
 /* Offers a triangle near a miss. One that the ray passes far off has nothing to do with it. */
 void query_offer_neighbour(query *, unsigned primitive);
 
-/* Offers a plate of a scene of few surfaces, which the ray surely meets, or may: then the triangles tell. True where
- * that ends or shortens the search. */
-bool query_offer_plate(query *, const geometry_triangle *, unsigned count, bool certain);
+/* Offers a plate of a scene of few surfaces, by its `count` triangles, which stand one after another. The ray is
+ * `certain` to meet it, or may: then they tell. */
+void query_offer_plate(query *, const geometry_triangle *, unsigned count, bool certain);
 
-/* Offers a surface that is no polygon, by Embree's number of it. */
+/* Offers a surface that is no polygon, by Embree's number of it; true where that shortens the search. */
 bool query_offer_curved(query *, unsigned primitive);
 
 /* The place at a distance along the ray, in Embree's units of the group that is visited. */

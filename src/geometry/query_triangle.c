@@ -149,12 +149,13 @@ void query_offer_neighbour(query *q, unsigned primitive) {
         note_miss(q, triangle, q->around->distance, slope);
 }
 
-bool query_offer_plate(query *q, const geometry_triangle *triangles, unsigned count, bool certain) {
+void query_offer_plate(query *q, const geometry_triangle *triangles, unsigned count, bool certain) {
     if (is_excepted(q, triangles))
-        return false;
+        return;
     for (unsigned i = 0; i < count && !certain; i++)
         certain = line_meets_triangle(q, &triangles[i]);
-    return certain && offer_met(q, triangles, triangles->normal, vec3_dot(triangles->normal, q->direction));
+    if (certain)
+        (void)offer_met(q, triangles, triangles->normal, vec3_dot(triangles->normal, q->direction));
 }
 
 void geometry_filter_intersect(const struct RTCFilterFunctionNArguments *args) {
