@@ -92,7 +92,10 @@ struct geometry {
 };
 
 /* A corner of the triangle, where its group stands. */
-vec3 geometry_corner(const geometry_tree *, const geometry_triangle *, int corner);
+static inline vec3 geometry_corner(const geometry_tree *tree, const geometry_triangle *triangle, int corner) {
+    const shape *s = &tree->shapes[triangle->surface];
+    return s->polygon.vertices[s->polygon.triangles[triangle->index][corner]];
+}
 
 /* The box around a copy in the scene. */
 void geometry_copy_bounds(const geometry *, const geometry_placement *, vec3 *lower, vec3 *upper);

@@ -73,11 +73,6 @@ bool geometry_survey_make(const geometry *g, geometry_survey *s, int threads) {
     return true;
 }
 
-vec3 geometry_corner(const geometry_tree *tree, const geometry_triangle *triangle, int corner) {
-    const shape *s = &tree->shapes[triangle->surface];
-    return s->polygon.vertices[s->polygon.triangles[triangle->index][corner]];
-}
-
 void geometry_collect_polygon(const geometry_tree *tree, int surface, geometry_triangle *triangle) {
     const shape *s = &tree->shapes[surface];
     for (uint32_t k = 0; k < s->polygon.triangle_count; k++, triangle++) {
