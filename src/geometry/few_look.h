@@ -1,5 +1,9 @@
 /* Scenes of few surfaces, looked through from the first to the last; for the instruction set that is in force where
- * this is included. What is offered is decided by functions that all share: no answer depends on it. */
+ * this is included, which defines LANES, how many numbers are reckoned with at once, and MASK(flags), a bit for each.
+ * What is offered is decided by functions that all share: no answer depends on it. */
+#ifndef GEOMETRY_FEW_LOOK_H
+#define GEOMETRY_FEW_LOOK_H
+
 #include "geometry/few.h"
 #include "geometry/query.h"
 
@@ -102,3 +106,5 @@ IN_PLACE void look_through(query *q) {
     for (int i = 0; i < few->ball_count && !q->found_any; i += LANES)
         look_at_balls(q, &few->balls, i, &ray);
 }
+
+#endif
