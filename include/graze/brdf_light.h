@@ -47,9 +47,11 @@ GRAZE_API double graze_brdf_ellipse(const graze_brdf *brdf, graze_vec3 center, g
 
 /* The diffuse term for reflectance 1, whatever the viewer: Lambert's formula. */
 GRAZE_API double graze_diffuse_polygon(const graze_vec3 *corners, size_t count);
-/* The same of four corners, as seen from a point of a surface with unit normal `normal`, all in space. */
-GRAZE_API double graze_diffuse_quadrangle(graze_vec3 point, graze_vec3 normal, const graze_vec3 corners[4]);
 GRAZE_API double graze_diffuse_ellipse(graze_vec3 center, graze_vec3 first, graze_vec3 second);
+
+/* The diffuse term of a polygon of four corners where these, the surface point and the surface's unit normal, on the
+ * side of which light counts, are given in space. */
+GRAZE_API double graze_diffuse_quadrangle(graze_vec3 point, graze_vec3 normal, const graze_vec3 corners[4]);
 
 #ifdef __cplusplus
 }

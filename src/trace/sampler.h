@@ -30,7 +30,8 @@ typedef struct sampler {
 uint64_t sampler_key(uint64_t seed, uint64_t stream, uint32_t replicate);
 /* At the beginning of the path that is point number `index` of the sequence that `key` chooses. */
 sampler sampler_start(uint64_t key, uint32_t index);
-/* The same for the first point of the first replicate: a path that draws nothing needs no key. */
+/* The same for the first point of the first replicate, while the origin is kept: a path that draws nothing needs no
+ * key. */
 static inline sampler sampler_start_once(const sampler_origin *origin) {
     return (sampler){0, 0, 0, origin};
 }

@@ -43,10 +43,12 @@ typedef struct ray_values {
 /* Appends the record of an answer. */
 void ray_output_append(const ray_output *, record_buffer *, const ray_values *);
 
-/* The same where nothing but v is asked for. */
+/* Whether nothing but v is asked for, and not in four bytes. */
 static inline bool ray_output_is_value(const ray_output *o) {
     return o->answer_count == 1 && o->letters[0] == 'v' && !o->tree && o->format != RAY_COLOR;
 }
+
+/* Appends the record of an answer then. */
 void ray_output_append_value(const ray_output *, record_buffer *, graze_rgb value);
 
 /* Appends the line of a ray of the tree. */
