@@ -383,3 +383,31 @@ bool shape_prepare_light(shape *s, arena *memory) {
     s->polygon.rectangle = kept;
     return true;
 }
+
+uint32_t shape_vertex_count(const shape *s) {
+    uint32_t count = s->polygon.vertex_count;
+    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            count = s->polygon.triangles[i][k] >= count ? s->polygon.triangles[i][k] + 1 : count;
+    return count;
+}
+
+bool shape_turn_polygon(shape *s, arena *memory) {
+    const uint32_t count = shape_vertex_count(s), outline = s->polygon.vertex_count;
+    vec3 *vertices = arena_allocate(memory, count * sizeof *vertices);
+    uint32_t(*triangles)[3] = arena_allocate(memory, (s->polygon.triangle_count + 1) * sizeof *triangles);
+    if (!vertices || !triangles)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        vertices[i] = s->polygon.vertices[i < outline ? outline - 1 - i : i];
+    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t corner = s->polygon.triangles[i][2 - k];
+            triangles[i][k] = corner < outline ? outline - 1 - corner : corner;
+        }
+    s->polygon.vertices = vertices;
+    s->polygon.triangles = (const uint32_t(*)[3])triangles;
+    s->polygon.normal = vec3_negate(s->polygon.normal);
+    s->polygon.offset = -s->polygon.offset;
+    return true;
+}

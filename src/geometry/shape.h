@@ -83,6 +83,11 @@ void shape_from_triangle(shape *, const vec3 vertices[3]);
 
 /* Finds out what drawing points of the shape asks every time. Memory comes from the arena; false: there is none. */
 bool shape_prepare_light(shape *, arena *);
+/* How many vertices a polygon has with those behind its outline. */
+uint32_t shape_vertex_count(const shape *);
+/* Turns a polygon's front to its other side, where its outline goes the other way round. Memory comes from the arena;
+ * false: there is none. To be done before shape_prepare_light. */
+bool shape_turn_polygon(shape *, arena *);
 /* Whether the polygon is a rectangle, as far as its vertices' roundings tell. */
 bool shape_is_rectangle(const shape *, shape_rectangle *);
 

@@ -72,18 +72,9 @@ static census census_of(graze_scene *scene, const census *parts, int number) {
     return c;
 }
 
-/* All that a polygon's triangles refer to. */
-static uint32_t vertex_count(const shape *s) {
-    uint32_t count = s->polygon.vertex_count;
-    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
-        for (int k = 0; k < 3; k++)
-            count = s->polygon.triangles[i][k] >= count ? s->polygon.triangles[i][k] + 1 : count;
-    return count;
-}
-
 /* The polygon itself, not only what shape_placed tells of it. */
 static bool place_polygon(shape *placed, const shape *s, const rad_transform *t, arena *memory) {
-    const uint32_t count = vertex_count(s), triangles = s->polygon.triangle_count;
+    const uint32_t count = shape_vertex_count(s), triangles = s->polygon.triangle_count;
     vec3 *vertices = arena_allocate(memory, count * sizeof *vertices);
     uint32_t(*corners)[3] = arena_allocate(memory, (triangles + 1) * sizeof *corners);
     if (!vertices || !corners)

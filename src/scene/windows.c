@@ -67,42 +67,13 @@ static double sky_seen(const graze_scene *scene, int64_t surface, const shape *s
     return (double)seen / LOOKS;
 }
 
-static uint32_t vertices_of(const shape *s) {
-    uint32_t most = s->polygon.vertex_count;
-    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
-        for (int k = 0; k < 3; k++)
-            most = s->polygon.triangles[i][k] >= most ? s->polygon.triangles[i][k] + 1 : most;
-    return most;
-}
-
-/* Turns a polygon's front to its other side: the outline goes the other way round. */
-static bool turn(shape *s, arena *memory) {
-    const uint32_t count = vertices_of(s), outline = s->polygon.vertex_count;
-    vec3 *vertices = arena_allocate(memory, count * sizeof *vertices);
-    uint32_t(*triangles)[3] = arena_allocate(memory, s->polygon.triangle_count * sizeof *triangles);
-    if (!vertices || !triangles)
-        return false;
-    for (uint32_t i = 0; i < count; i++)
-        vertices[i] = s->polygon.vertices[i < outline ? outline - 1 - i : i];
-    for (uint32_t i = 0; i < s->polygon.triangle_count; i++)
-        for (int k = 0; k < 3; k++) {
-            uint32_t corner = s->polygon.triangles[i][2 - k];
-            triangles[i][k] = corner < outline ? outline - 1 - corner : corner;
-        }
-    s->polygon.vertices = vertices;
-    s->polygon.triangles = (const uint32_t(*)[3])triangles;
-    s->polygon.normal = vec3_negate(s->polygon.normal);
-    s->polygon.offset = -s->polygon.offset;
-    return true;
-}
-
 /* Adds a pane, if it is a window. False: there is no memory. */
 static bool add_pane(graze_scene *scene, scene_windows *windows, int index) {
     shape s = scene->shapes[index];
     double before = sky_seen(scene, index, &s, 1), behind = sky_seen(scene, index, &s, -1);
     if (fmax(before, behind) < LEAST_SKY || fmin(before, behind) > DARKER * fmax(before, behind))
         return true;
-    if ((before > behind && !turn(&s, scene->memory)) || !shape_prepare_light(&s, scene->memory))
+    if ((before > behind && !shape_turn_polygon(&s, scene->memory)) || !shape_prepare_light(&s, scene->memory))
         return false;
     scene_window *w = &windows->of[windows->count++];
     w->shape = s;
