@@ -303,8 +303,35 @@ static void square_with_square_hole(void **state) {
     assert_near(s.polygon.offset, 0, 0);
 }
 
+/* A star whose sides cross, so that vertices stand behind its outline: turned it is where it was. */
+static void polygons_are_turned(void **state) {
+    (void)state;
+    vec3 v[5];
+    for (int i = 0; i < 5; i++)
+        v[i] = vec3_make(cos(0.8 * PI * i), sin(0.8 * PI * i), 2);
+    const shape s = make_polygon(5, v);
+    shape turned = s;
+    assert_true(shape_vertex_count(&s) > 5);
+    assert_true(shape_turn_polygon(&turned, memory));
+    assert_vector(turned.polygon.normal, 0, 0, -1);
+    assert_near(turned.polygon.offset, -2, 1e-15);
+    assert_int_equal(shape_vertex_count(&turned), shape_vertex_count(&s));
+    for (int i = 0; i < 5; i++)
+        assert_memory_equal(&turned.polygon.vertices[4 - i], &v[i], sizeof *v);
+    int inside = 0;
+    dice d = {5};
+    for (int i = 0; i < 1000; i++) {
+        const vec3 point = vec3_make(2 * roll(&d) - 1, 2 * roll(&d) - 1, 2);
+        const int around = triangles_around(&s, point);
+        assert_int_equal(triangles_around(&turned, point), around);
+        inside += around;
+    }
+    assert_true(inside > 100 && inside < 900);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(polygons_are_turned),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(equal_radii_make_a_cylinder),
         cmocka_unit_test(closing_vertex_is_dropped),
