@@ -12,8 +12,8 @@
  *   are taken out, and the same arithmetic serves.
  *
  * Whole lights (lobe_light.c) are integrals along outlines (outline.c), in parts (lobe_part.c), of a field
- * (lobe_field.h) that the table has as well: field_loops.h, by the rules of gauss.h. The diffuse term's (diffuse_light.c) of
- * a panel is there, too: panel_kernels.h.
+ * (lobe_field.h) that the table has as well: field_loops.h, by the rules of gauss.h. The diffuse term's
+ * (diffuse_light.c) of a panel is there, too: panel_kernels.h.
  *
  * Integrals over all directions (albedo*.c, mean_albedo.c, over the slopes of slope_plane.c, by the rule of
  * quadrature.c) and the diffuse term (diffuse.c) are plain C and libm. */
