@@ -8,6 +8,7 @@
 
 #include "brdf/kernels.h"
 
+/* Where there is fma() vectors hold four numbers, or more. */
 #ifdef BRDF_FMA
 enum { PANEL_LANES = 4 };
 #define PANEL_ALL(f) ((f)[0] & (f)[1] & (f)[2] & (f)[3])

@@ -109,6 +109,7 @@ static void prepare_colours(graze_surface *s, const graze_material *m, bool mirr
         return;
     }
     double specularity = m->specularity, fresnel = 0;
+    /* All that is below, where most of it is 0: there is more of this than of anything else. */
     if (m->kind == GRAZE_PLASTIC && specularity == 0) {
         s->fresnel = s->transmits = 0;
         s->specular = rgb_gray(0);
