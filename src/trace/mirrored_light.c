@@ -167,15 +167,13 @@ static path_unmet_at *note_part(const path *p, const vertex *v, const virtual_li
 }
 
 /* By one number for all: where the sum of what is expected so far passes it, or it and a whole number. */
-static void add_chosen(path *p, const virtual_lights *all, const virtual_lights_survey *found,
-                       const lobe_choice *choice) {
-    virtual_lights left = *all;
+static void add_chosen(path *p, virtual_lights *all, const virtual_lights_survey *found, const lobe_choice *choice) {
     double random[3] = {0}, sum = 0, next;
     if (virtual_lights_draw_lots(found))
         random[0] = sampler_1d(p->sampler);
     next = random[0];
     for (int i = 0; i < found->count; i++) {
-        const virtual_light *l = found->count > VIRTUAL_LIGHTS_KEPT ? virtual_lights_next(&left) : &found->kept[i];
+        const virtual_light *l = found->count > VIRTUAL_LIGHTS_KEPT ? virtual_lights_next(all) : &found->kept[i];
         double expectation = virtual_lights_expectation(found, l);
         path_unmet_at *part = note_part(p, all->vertex, l, expectation);
         sum += expectation;
@@ -193,10 +191,11 @@ void mirrored_light_add(path *p, const vertex *v, const lobe_choice *choice) {
     bool dull = v->shading.specular_lobe != GRAZE_LOBE_GLOSSY && rgb_is_black(v->ambient) && !v->function;
     if (dull || p->wanted == WANTED_BENT)
         return;
-    const virtual_lights all = virtual_lights_of(p->context, v, p->ambient_depth);
+    virtual_lights all;
     virtual_lights_survey found;
+    virtual_lights_begin(&all, p->context, v, p->ambient_depth);
     p->worth = virtual_lights_worth_at(p, v);
-    virtual_lights_look(&found, all, &p->worth);
+    virtual_lights_look(&found, &all, &p->worth);
     if (found.count > 0)
         add_chosen(p, &all, &found, choice);
 }
@@ -206,19 +205,20 @@ static double density_of(const path *p, const path_hit *hit) {
     const graze_scene *scene = p->context->scene;
     const scene_mirror *m = scene_mirror_of(scene, p->last.mirror);
     int bounced = p->ambient_depth - (p->last.lobe == GRAZE_LOBE_DIFFUSE);
-    const virtual_lights all = virtual_lights_of(p->context, p->last.vertex, bounced);
-    virtual_lights left = all;
-    const virtual_light *l = virtual_lights_next(&left);
-    while (l && (l->sight.mirror != m || (l->light >= 0 && l->light != hit->light)))
-        l = virtual_lights_next(&left);
-    if (!l)
+    virtual_lights all;
+    virtual_lights_begin(&all, p->context, p->last.vertex, bounced);
+    const virtual_light *found = virtual_lights_next(&all);
+    while (found && (found->sight.mirror != m || (found->light >= 0 && found->light != hit->light)))
+        found = virtual_lights_next(&all);
+    if (!found)
         return 0;
+    const virtual_light l = *found;
     virtual_lights_survey among;
-    virtual_lights_look(&among, all, &p->worth);
-    double expectation = virtual_lights_expectation(&among, l) * virtual_light_chance(&all, l, hit->light);
-    return expectation == 0 ? 0
-                            : expectation * light_density(scene, l->sight.image, hit->light, hit->direction, hit->point,
-                                                          hit->normal);
+    virtual_lights_look(&among, &all, &p->worth);
+    double expectation = virtual_lights_expectation(&among, &l) * virtual_light_chance(&all, &l, hit->light);
+    return expectation == 0
+               ? 0
+               : expectation * light_density(scene, l.sight.image, hit->light, hit->direction, hit->point, hit->normal);
 }
 
 double mirrored_light_weight(const path *p, const path_hit *hit) {

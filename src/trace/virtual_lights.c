@@ -25,15 +25,20 @@ static bool is_left_to_paths(const graze_scene *scene, const scene_mirror *m) {
     return m->pane && scene->has_sky;
 }
 
-virtual_lights virtual_lights_of(const path_context *context, const vertex *v, int bounced) {
+static void rewind_lights(virtual_lights *all) {
+    all->next = 0;
+    all->light = (int)all->context->scene->light_count;
+}
+
+void virtual_lights_begin(virtual_lights *all, const path_context *context, const vertex *v, int bounced) {
     bool glossy = v->shading.specular_lobe == GRAZE_LOBE_GLOSSY && !v->gloss_is_ambient;
     bool matte = !v->no_ambient && bounced < context->settings->ambient_bounces;
-    return (virtual_lights){.context = context,
-                            .vertex = v,
-                            .bounced = bounced,
-                            .ambient = context_samples_glows(context->settings) && (glossy || matte),
-                            .panes = glossy || matte,
-                            .light = (int)context->scene->light_count};
+    all->context = context;
+    all->vertex = v;
+    all->bounced = bounced;
+    all->ambient = context_samples_glows(context->settings) && (glossy || matte);
+    all->panes = glossy || matte;
+    rewind_lights(all);
 }
 
 /* Goes on to the next mirror that may show something; false: there are no more. */
@@ -103,18 +108,20 @@ static double worth_of(const virtual_light *l, const virtual_lights_worth *worth
     return fmin(often, 1);
 }
 
-void virtual_lights_look(virtual_lights_survey *found, virtual_lights all, const virtual_lights_worth *worth) {
+void virtual_lights_look(virtual_lights_survey *found, virtual_lights *all, const virtual_lights_worth *worth) {
     const virtual_light *l;
     found->count = 0;
     found->sum = found->often = 0;
     found->worth = *worth;
-    while ((l = virtual_lights_next(&all))) {
+    rewind_lights(all);
+    while ((l = virtual_lights_next(all))) {
         if (found->count < VIRTUAL_LIGHTS_KEPT)
             found->kept[found->count] = *l;
         found->count++;
         found->sum += l->weight;
         found->often += worth_of(l, worth);
     }
+    rewind_lights(all);
 }
 
 /* Where that would be more than so many at one point, so many are chosen of those that matter. */

@@ -24,9 +24,9 @@ typedef struct virtual_lights {
     virtual_light now;
 } virtual_lights;
 
-/* From the first one on. What panes show lights diffuse surfaces only where a path that is reflected diffusely would
- * find it, as in Radiance: hence `bounced`. */
-virtual_lights virtual_lights_of(const path_context *, const vertex *, int bounced);
+/* Begins before the first one. What panes show lights diffuse surfaces only where a path that is reflected diffusely
+ * would find it, as in Radiance: hence `bounced`. */
+void virtual_lights_begin(virtual_lights *, const path_context *, const vertex *, int bounced);
 
 /* The next one that may be seen, until the one after it is asked for; null: there are no more. */
 const virtual_light *virtual_lights_next(virtual_lights *);
@@ -43,8 +43,8 @@ typedef struct virtual_lights_survey {
     virtual_light kept[VIRTUAL_LIGHTS_KEPT]; /* the first ones */
 } virtual_lights_survey;
 
-/* Finds out about all that virtual_lights_next would give. */
-void virtual_lights_look(virtual_lights_survey *, virtual_lights, const virtual_lights_worth *);
+/* Goes through all from the first one on, and is then before that again. */
+void virtual_lights_look(virtual_lights_survey *, virtual_lights *, const virtual_lights_worth *);
 
 /* What they are worth at a vertex that the path has come to, where other lights have been sampled. */
 virtual_lights_worth virtual_lights_worth_at(const path *, const vertex *);
