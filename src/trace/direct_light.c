@@ -167,12 +167,11 @@ static ONE_SIDE bool is_above(const vertex *v, vec3 direction, bool below) {
            !(v->leans && (vec3_dot(direction, v->normal) <= 0) != below);
 }
 
-/* Directions of a sky are drawn in three ways: of all of it, in windows, and by reflection. Of each counts the square
- * of its density (power heuristic): a balance would leave so much to those of all of it that in a room few samples
- * would mostly miss their share, and not tell. */
-
 /* Direct light, Eq. 18, from a sample of one light, which is taken `expectation` times on the average. `other` is the
- * density of the other way to draw it, if it has two. Tells the brightness that something hides wholly. */
+ * density of the other way to draw it, if it has two: a sky is drawn from as a whole, and in windows. Of both, and of
+ * reflection, the squares count (power heuristic): a balance would leave so much to samples of the whole that in a room
+ * the few that there are would mostly miss their share, and not tell. Tells the brightness that something hides wholly.
+ */
 static ONE_SIDE double add_sample(path *p, const vertex *v, const light_sample *drawn, double expectation, double other,
                                   const lobe_choice *choice, bool below) {
     const light_sample sample = *drawn;
@@ -184,8 +183,8 @@ static ONE_SIDE double add_sample(path *p, const vertex *v, const light_sample *
     rare_gloss rare = !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
     if (rare != RARE_GLOSS_FLAT && rgb_is_black(reflected))
         return 0;
-    rgb weight = rgb_scale(cosine / own * power_heuristic(own, other), p->throughput),
-        whole = rgb_multiply(weight, reflected);
+    rgb weight = rgb_scale(cosine / own * power_heuristic(own, other), p->throughput);
+    rgb whole = rgb_multiply(weight, reflected);
     rgb passed = rgb_gray(1);
     bool lit = light_is_visible(p, v, &sample, &passed);
     rgb found = rgb_multiply(whole, passed);
