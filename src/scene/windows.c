@@ -138,14 +138,17 @@ static double weight_of(const scene_window *w, vec3 point, vec3 normal) {
     return w->shape.polygon.area * cosine * (before + 0.1 * w->radius) / ((square + radius2) * sqrt(square + radius2));
 }
 
-/* Keeps what has most weight. */
+/* Keeps what has most weight: where there is no room, in place of the least. */
 static void insert(window_choice *c, int index, double weight) {
-    int at = c->count < WINDOWS_SEEN_MOST ? c->count++ : WINDOWS_SEEN_MOST - 1;
-    if (c->count == WINDOWS_SEEN_MOST && at == WINDOWS_SEEN_MOST - 1 && c->share[at] >= weight && c->index[at] >= 0)
-        return;
-    for (; at > 0 && c->share[at - 1] < weight; at--) {
-        c->share[at] = c->share[at - 1];
-        c->index[at] = c->index[at - 1];
+    int at = c->count;
+    if (c->count == WINDOWS_SEEN_MOST) {
+        at = 0;
+        for (int i = 1; i < c->count; i++)
+            at = c->share[i] < c->share[at] ? i : at;
+        if (c->share[at] >= weight)
+            return;
+    } else {
+        c->count++;
     }
     c->share[at] = weight;
     c->index[at] = index;
@@ -157,8 +160,6 @@ void window_choice_prepare(window_choice *c, const graze_scene *scene, vec3 poin
     c->windows = windows;
     c->point = point;
     c->count = 0;
-    c->share[WINDOWS_SEEN_MOST - 1] = 0;
-    c->index[WINDOWS_SEEN_MOST - 1] = -1;
     for (int i = 0; i < windows->count; i++) {
         double weight = weight_of(&windows->of[i], point, normal);
         if (weight > 0)
