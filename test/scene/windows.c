@@ -125,6 +125,23 @@ static void densities_are_of_the_draws(void **state) {
     graze_scene_destroy(scene);
 }
 
+static bool has_sun(const char *text) {
+    graze_scene *scene = load_scene(text);
+    assert_non_null(scene->windows);
+    bool has = scene->sun_comes_in;
+    graze_scene_destroy(scene);
+    return has;
+}
+
+static void suns_that_come_in(void **state) {
+    (void)state;
+#define LIT GLASS SKY GROUND ROOM PANE "void light l 0 0 3 9 9 9 l source sun 0 0 4 "
+    assert_true(has_sun(LIT ".3 -1 1 .533\n"));
+    assert_false(has_sun(LIT ".3 1 1 .533\n")); /* behind the house */
+    assert_false(has_sun(LIT ".3 -1 1 .533\nw polygon p2 0 0 12 -9 -4 3 9 -4 3 9 -4 9 -9 -4 9\n")); /* hidden */
+    assert_false(has_sun(GLASS SKY GROUND ROOM PANE));
+}
+
 /* A window with bars is looked at whole: what is left out of one would be found by luck, and not told. */
 static void bars_leave_no_pane_out(void **state) {
     (void)state;
@@ -150,6 +167,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_window),
         cmocka_unit_test(densities_are_of_the_draws),
         cmocka_unit_test(bars_leave_no_pane_out),
+        cmocka_unit_test(suns_that_come_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
