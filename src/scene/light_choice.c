@@ -84,7 +84,8 @@ void light_choice_prepare(light_choice *choice, const graze_scene *scene, const 
     choice->tree = tree;
     choice->receiver = *receiver;
     choice->windows.count = 0;
-    if (scene->windows && receiver->window_draws > 0 && !rgb_is_black(receiver->ambient_diffuse))
+    if (scene->windows && receiver->window_draws > 0 &&
+        (!rgb_is_black(receiver->ambient_diffuse) || !rgb_is_black(receiver->ambient_glossy)))
         window_choice_prepare(&choice->windows, scene, receiver->point, receiver->surface->n, receiver->window_draws);
     if (light_choice_is_every_one(choice)) {
         prepare_every(choice, scene);

@@ -168,6 +168,7 @@ struct graze_scene {
     bool meets_glows;    /* that light what is about but are not sampled: in mixtures, or too many copies */
     bool has_sky;        /* one of them is so wide that it is a sky */
     bool suns_overlap;   /* a direction is in two of the `light` ones */
+    bool sun_comes_in;   /* one that is no sky shines through one of the windows */
     light_tree light_tree;
     geometry *geometry;
 };

@@ -42,6 +42,11 @@ static vec3 place_in(const shape *s, const uint32_t triangle[3], double u, doubl
                     vec3_scale(1 - a - b, p[triangle[2]]));
 }
 
+static vec3 place_in_pane(const shape *s, int i) {
+    return place_in(s, s->polygon.triangles[i % s->polygon.triangle_count], even_step(i + 0.5, EVEN_STEP_X),
+                    even_step(i + 0.5, EVEN_STEP_Y));
+}
+
 static bool is_sky_there(const graze_scene *scene, vec3 direction) {
     for (size_t i = scene->first_source; i < scene->first_copied; i++)
         if (scene_light_is_sky(&scene->lights[i]) &&
@@ -57,14 +62,27 @@ static double sky_seen(const graze_scene *scene, int64_t surface, const shape *s
     for (int i = 0; i < LOOKS; i++) {
         double sine = sqrt((i + 0.5) / LOOKS), turn = 2 * PI * even_step(i, GOLDEN_SECTION);
         vec3 direction = frame_to_world(&axes, vec3_make(sine * cos(turn), sine * sin(turn), sqrt(1 - sine * sine)));
-        double u = even_step(i + 0.5, EVEN_STEP_X), v = even_step(i + 0.5, EVEN_STEP_Y);
-        geometry_ray ray = {.origin = place_in(s, s->polygon.triangles[i % s->polygon.triangle_count], u, v),
-                            .direction = direction,
-                            .far = GEOMETRY_FAR,
-                            .from = surface};
+        geometry_ray ray = {
+            .origin = place_in_pane(s, i), .direction = direction, .far = GEOMETRY_FAR, .from = surface};
         seen += is_sky_there(scene, direction) && !geometry_occluded_but_for_panes(scene->geometry, &ray, -1, NULL);
     }
     return (double)seen / LOOKS;
+}
+
+/* Whether a sun shines on the outside of a pane that is turned inside. */
+static bool sun_comes_in(const graze_scene *scene, int64_t surface, const shape *s) {
+    for (size_t i = scene->first_source; i < scene->first_copied; i++) {
+        const scene_light *sun = &scene->lights[i];
+        if (scene_light_is_sky(sun) || light_is_ambient(sun) || vec3_dot(sun->center, s->polygon.normal) >= 0)
+            continue;
+        for (int k = 0; k < LOOKS; k++) {
+            geometry_ray ray = {
+                .origin = place_in_pane(s, k), .direction = sun->center, .far = GEOMETRY_FAR, .from = surface};
+            if (!geometry_occluded_but_for_panes(scene->geometry, &ray, -1, NULL))
+                return true;
+        }
+    }
+    return false;
 }
 
 /* Adds a pane, if it is a window. False: there is no memory. */
@@ -75,6 +93,7 @@ static bool add_pane(graze_scene *scene, scene_windows *windows, int index) {
         return true;
     if ((before > behind && !shape_turn_polygon(&s, scene->memory)) || !shape_prepare_light(&s, scene->memory))
         return false;
+    scene->sun_comes_in = scene->sun_comes_in || sun_comes_in(scene, index, &s);
     scene_window *w = &windows->of[windows->count++];
     w->shape = s;
     w->radius = 0;
@@ -138,14 +157,17 @@ static double weight_of(const scene_window *w, vec3 point, vec3 normal) {
     return w->shape.polygon.area * cosine * (before + 0.1 * w->radius) / ((square + radius2) * sqrt(square + radius2));
 }
 
-/* Keeps what has most weight. */
+/* Keeps what has most weight: where there is no room, in place of the least. */
 static void insert(window_choice *c, int index, double weight) {
-    int at = c->count < WINDOWS_SEEN_MOST ? c->count++ : WINDOWS_SEEN_MOST - 1;
-    if (c->count == WINDOWS_SEEN_MOST && at == WINDOWS_SEEN_MOST - 1 && c->share[at] >= weight && c->index[at] >= 0)
-        return;
-    for (; at > 0 && c->share[at - 1] < weight; at--) {
-        c->share[at] = c->share[at - 1];
-        c->index[at] = c->index[at - 1];
+    int at = c->count;
+    if (c->count == WINDOWS_SEEN_MOST) {
+        at = 0;
+        for (int i = 1; i < c->count; i++)
+            at = c->share[i] < c->share[at] ? i : at;
+        if (c->share[at] >= weight)
+            return;
+    } else {
+        c->count++;
     }
     c->share[at] = weight;
     c->index[at] = index;
@@ -157,8 +179,6 @@ void window_choice_prepare(window_choice *c, const graze_scene *scene, vec3 poin
     c->windows = windows;
     c->point = point;
     c->count = 0;
-    c->share[WINDOWS_SEEN_MOST - 1] = 0;
-    c->index[WINDOWS_SEEN_MOST - 1] = -1;
     for (int i = 0; i < windows->count; i++) {
         double weight = weight_of(&windows->of[i], point, normal);
         if (weight > 0)

@@ -5,8 +5,9 @@
 
 #include "scene/scene.h"
 
-/* A point looks at so many windows, those that it sees most of. */
-enum { WINDOWS_SEEN_MOST = 8 };
+/* A point looks at so many windows, those that it sees most of. What it leaves out is found by luck alone: all panes
+ * between the bars of some windows should be among them. */
+enum { WINDOWS_SEEN_MOST = 64 };
 
 /* Finds the panes that one side of sees much of a sky, and the other not. The scene's geometry must be there. */
 graze_status scene_windows_find(graze_scene *, const graze_report *);

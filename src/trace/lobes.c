@@ -193,6 +193,13 @@ static bool is_search(const path *p, graze_lobe lobe) {
            (!context_samples_lights(p->context->settings) || p->context->scene->has_mirrors);
 }
 
+/* Whether it may meet, first of all, what the sun shines on through windows. Paths seldom find such a spot, which is
+ * then much brighter than the sky that others find in the windows, evenly enough to be believed too soon. */
+static bool is_search_for_sun(const path *p, const light_choice *lights, bool diffuse) {
+    return diffuse && p->ambient_depth == 0 && p->context->scene->sun_comes_in && lights->windows.count > 0 &&
+           !p->context->cache;
+}
+
 /* A rejected direction is drawn again, up to a hundred times. One of two is kept at least for roughnesses up to 1.2 or
  * so, and the end is then never reached; of a roughness of 10, one of a hundred. */
 static graze_surface_sample draw_unweighted(path *p, const graze_surface *s, const double random[2]) {
@@ -344,13 +351,13 @@ static bool keep_to_side(const vertex *v, graze_lobe lobe, bool below, vec3 *dir
 }
 
 /* The path has been reflected, or transmitted, by the lobe. */
-static inline void count_scattering(path *p, graze_lobe lobe, bool diffuse) {
+static inline void count_scattering(path *p, const light_choice *lights, graze_lobe lobe, bool diffuse) {
     if (diffuse && p->indirect_known && p->depth == 0 && p->context->scene->has_refraction)
         p->wanted = WANTED_BENT;
     p->depth++;
+    p->searching = p->searching || is_search(p, lobe) || is_search_for_sun(p, lights, diffuse);
     p->ambient_depth += diffuse;
     p->scattered = p->scattered || lobe != GRAZE_LOBE_MIRROR;
-    p->searching = p->searching || is_search(p, lobe);
 }
 
 /* Goes on with one of the lobes of a side, by random[3], which is below the sum of their chances or means the end.
@@ -398,7 +405,7 @@ static inline __attribute__((always_inline)) bool go_on(path *p, const vertex *v
         return false;
     if (below)
         go_below(p, v);
-    count_scattering(p, lobe, diffuse);
+    count_scattering(p, lights, lobe, diffuse);
     *direction = sample.direction;
     return true;
 }

@@ -136,10 +136,59 @@ static void all_strategies_agree(void **state) {
     }
 }
 
+/* How often the intervals of a sensor hold what many samples tell. */
+static double coverage(const char *text, const graze_ray *ray) {
+    enum { TIMES = 400 };
+    graze_scene *scene = load_scene(text);
+    graze_trace_settings s = graze_trace_defaults();
+    graze_answer truth, a;
+    s.quantity = GRAZE_IRRADIANCE;
+    s.ambient_bounces = 1;
+    s.samples = 1u << 18;
+    graze_trace(scene, &s, ray, 1000, &truth, NULL);
+    s.samples = 0;
+    s.error = 0.1;
+    int covered = 0;
+    double samples = 0;
+    for (int i = 0; i < TIMES; i++) {
+        graze_trace(scene, &s, ray, (uint64_t)i, &a, NULL);
+        covered += fabs(a.value.g - truth.value.g) <= 1.96 * a.standard_error.g;
+        samples += (double)a.samples / TIMES;
+    }
+    printf("# %.3g +- %.2g: %.1f%% covered, %.0f samples\n", truth.value.g, truth.standard_error.g,
+           100.0 * covered / TIMES, samples);
+    graze_scene_destroy(scene);
+    return (double)covered / TIMES;
+}
+
+/* A floor's gloss shows the sky in the window to the ceiling, which the window itself lights evenly: what the few paths
+ * find that come to see it is expected, and stated where none has. */
+static void gloss_that_shows_windows_is_expected(void **state) {
+    (void)state;
+    const graze_ray ray = {.origin = {2, 3, 2.99}, .direction = {0, 0, -1}};
+    assert_true(coverage(BLACK_ROOM CLEAR WINDOW
+                         "void glow h 0 0 4 5 5 5 0 h source sky 0 0 4 0 0 1 180 void glow g 0 0 4 1 1 1 0 "
+                         "g source ground 0 0 4 0 0 -1 180 void plastic p 0 0 5 0 0 0 .04 .1 "
+                         "p polygon parquet 0 0 12 0 0 .01 4 0 .01 4 6 .01 0 6 .01\n",
+                         &ray) >= 0.9);
+}
+
+/* Where the sun shines in, few paths find the spot on the floor, and all find the sky. */
+static void spots_of_sun_are_searched_for(void **state) {
+    (void)state;
+#define SUN(x, y, z)                                                                                                   \
+    BLACK_ROOM CLEAR WINDOW SKY "void plastic p 0 0 5 .5 .5 .5 0 0 p polygon matt 0 0 12 0 0 .01 4 0 .01 4 6 .01 0 6 " \
+                                ".01 void light l 0 0 3 5e4 5e4 5e4 l source sun 0 0 4 " x " " y " " z " .533\n"
+    const graze_ray ray = {.origin = {2, 5.99, 1.5}, .direction = {0, -1, 0}};
+    assert_true(coverage(SUN(".3", "-1", "1"), &ray) >= 0.92);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(windows_give_what_their_outlines_tell),
         cmocka_unit_test(all_strategies_agree),
+        cmocka_unit_test(gloss_that_shows_windows_is_expected),
+        cmocka_unit_test(spots_of_sun_are_searched_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
