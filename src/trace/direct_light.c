@@ -262,25 +262,34 @@ static ONE_SIDE void add_lights(path *p, const vertex *v, const light_choice *li
         known_light_watch_chosen(p, hidden / count, rgb_brightness(rgb_add_scaled(p->radiance, -1, before)));
 }
 
-/* The sky as a window shows it. */
+/* A sky as a window shows it in that direction. */
+static ONE_SIDE void add_sky_seen(path *p, const vertex *v, const light_choice *lights, int sky, vec3 direction,
+                                  const lobe_choice *choice, bool below) {
+    const graze_scene *scene = p->context->scene;
+    const scene_light *light = &scene->lights[sky];
+    light_sample sample = {.light = sky, .distance = GEOMETRY_FAR, .direction = direction};
+    sample.radiance = light_patterned(light, light->radiance, v->point, direction, direction, GEOMETRY_FAR, p->length);
+    sample.density = window_density(&lights->windows, direction);
+    double other = light_expectation(lights, sky);
+    if (other > 0)
+        other *= light_density(scene, v->point, sky, direction, v->point, v->normal);
+    if (sample.density > 0 && !rgb_is_black(sample.radiance))
+        (void)add_sample(p, v, &sample, 1, other, choice, below);
+}
+
+/* All skies that a window shows: lights that overlap shine together. */
 static ONE_SIDE void add_sky_in_window(path *p, const vertex *v, const light_choice *lights, int which,
                                        const double random[2], const lobe_choice *choice, bool below) {
     const graze_scene *scene = p->context->scene;
-    light_sample sample = {.distance = GEOMETRY_FAR};
-    if (!window_draw(&lights->windows, which, random, &sample.direction) || !is_above(v, sample.direction, below))
+    vec3 direction;
+    if (!window_draw(&lights->windows, which, random, &direction) || !is_above(v, direction, below))
         return;
-    sample.light = light_source_towards(scene, sample.direction);
-    if (sample.light < 0 || !scene_light_is_sky(&scene->lights[sample.light]))
-        return;
-    const scene_light *light = &scene->lights[sample.light];
-    sample.radiance =
-        light_patterned(light, light->radiance, v->point, sample.direction, sample.direction, GEOMETRY_FAR, p->length);
-    sample.density = window_density(&lights->windows, sample.direction);
-    double other = light_expectation(lights, sample.light);
-    if (other > 0)
-        other *= light_density(scene, v->point, sample.light, sample.direction, v->point, v->normal);
-    if (sample.density > 0 && !rgb_is_black(sample.radiance))
-        (void)add_sample(p, v, &sample, 1, other, choice, below);
+    int first = light_source_towards(scene, direction);
+    if (first >= 0 && scene_light_is_sky(&scene->lights[first]))
+        add_sky_seen(p, v, lights, first, direction, choice, below);
+    for (int i = first + 1; scene->suns_overlap && first >= 0 && i < (int)scene->first_copied; i++)
+        if (scene_light_is_sky(&scene->lights[i]) && light_source_shines_from(scene, i, direction))
+            add_sky_seen(p, v, lights, i, direction, choice, below);
 }
 
 static ONE_SIDE void add_windows(path *p, const vertex *v, const light_choice *lights, const lobe_choice *choice,

@@ -42,6 +42,7 @@ typedef struct random_scene {
     placement placement;
     dice dice;
     bool open;      /* a floor and lights around, or a closed room */
+    bool windows;   /* of that room, to a sky */
     bool clear;     /* light goes through some of its surfaces */
     bool functions; /* some of its materials are functions, or mixtures with void */
     int shape_count;
@@ -375,13 +376,38 @@ static inline vec3 box_corner(vec3 lower, vec3 upper, int corner) {
     return vec3_make(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z);
 }
 
+/* A wall with an opening; of that, panes fill all or most. */
+static inline void add_window(random_scene *s, const vec3 wall[4]) {
+    vec3 u = vec3_subtract(wall[3], wall[0]), v = vec3_subtract(wall[1], wall[0]), around[10];
+    double left = roll_between(&s->dice, 0.1, 0.4), right = roll_between(&s->dice, 0.6, 0.9),
+           low = roll_between(&s->dice, 0.1, 0.4), high = roll_between(&s->dice, 0.6, 0.9);
+    const double of_wall[10][2] = {{0, 0},      {0, 1},       {1, 1},        {1, 0},       {0, 0},
+                                   {left, low}, {right, low}, {right, high}, {left, high}, {left, low}};
+    for (int i = 0; i < 10; i++)
+        around[i] = vec3_add_scaled(vec3_add_scaled(wall[0], of_wall[i][0], u), of_wall[i][1], v);
+    print_polygon(s, roll_material(s), 10, around);
+    print_scene(s, "void glass pane 0 0 3");
+    for (int i = 0; i < 3; i++)
+        print_scene(s, " %.17g", roll_between(&s->dice, 0.7, 0.95));
+    print_scene(s, "\n");
+    int panes = 1 + roll_below(&s->dice, 3), glazed = panes - (panes > 1 && roll(&s->dice) < 0.3);
+    for (int i = 0; i < glazed; i++) {
+        vec3 step = vec3_scale(1.0 / panes, vec3_subtract(around[6], around[5])),
+             a = vec3_add_scaled(around[5], i, step), up = vec3_subtract(around[8], around[5]), b = vec3_add(a, step);
+        print_polygon(s, "pane", 4, (vec3[]){a, b, vec3_add(b, up), vec3_add(a, up)});
+    }
+}
+
 static inline void add_room(random_scene *s, vec3 lower, vec3 upper) {
     static const int faces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
     for (int face = 0; face < 6; face++) {
         vec3 corners[4];
         for (int i = 0; i < 4; i++)
             corners[i] = box_corner(lower, upper, faces[face][i]);
-        print_polygon(s, roll_material(s), 4, corners);
+        if (s->windows && face == 3)
+            add_window(s, corners);
+        else
+            print_polygon(s, roll_material(s), 4, corners);
     }
 }
 
@@ -396,6 +422,21 @@ static inline void add_sky(random_scene *s) {
                 0.8 * radiance);
     print_vector(s, place_vector(&s->placement, vec3_make(0, 0, 1)));
     print_scene(s, " %d\n", roll(&s->dice) < 0.5 ? 180 : 360);
+}
+
+/* Of light or glow, some of them overlapping. */
+static inline void add_skies(random_scene *s) {
+    int skies = 1 + roll_below(&s->dice, 2);
+    for (int i = 0; i < skies; i++) {
+        bool glow = roll(&s->dice) < 0.7;
+        double radiance = roll_between(&s->dice, 1, 10);
+        vec3 towards = vec3_normalize(vec3_add(vec3_make(0, 1, 1), roll_direction(&s->dice)));
+        print_scene(s, "void %s sky_glow%d 0 0 %d %.17g %.17g %.17g%s\nsky_glow%d source sky%d 0 0 4",
+                    glow ? "glow" : "light", i, glow ? 4 : 3, radiance, 0.5 * radiance, 0.8 * radiance,
+                    glow ? " 0" : "", i, i);
+        print_vector(s, place_vector(&s->placement, towards));
+        print_scene(s, " %.17g\n", roll(&s->dice) < 0.5 ? 180 : roll_between(&s->dice, 70, 360));
+    }
 }
 
 /* Shapes in a box, some of them in a cluster a hundred to a thousand times smaller. */
@@ -462,12 +503,15 @@ static inline void random_scene_make(random_scene *s, uint64_t number, placement
     bool open = s->open = roll(&s->dice) < 0.4;
     vec3 upper = roll_in_box(&s->dice, vec3_make(1.5, 1.5, 2), vec3_make(5, 5, 4));
     vec3 lower = {-upper.x, -upper.y, 0};
+    s->windows = !open && s->kind != RANDOM_SMALL_LIGHT && number % 5 == 1;
     if (open)
         add_floor(s, 20);
     else
         add_room(s, lower, upper);
     if (open && s->kind != RANDOM_SMALL_LIGHT && roll(&s->dice) < 0.5)
         add_sky(s);
+    if (s->windows)
+        add_skies(s);
     add_shapes(s, lower, upper);
     int lamps = 1 + roll_below(&s->dice, 3) + (roll(&s->dice) < 0.1 ? 8 : 0);
     for (int i = 0; i < lamps; i++)
