@@ -220,8 +220,13 @@ static ONE_SIDE double add_sampled_light(path *p, const vertex *v, const light_c
     const light_sample sample = light_draw(scene, v->point, p->length, light, random);
     if (sample.light < 0 || rgb_is_black(sample.radiance) || !is_above(v, sample.direction, below))
         return 0;
-    return add_sample(p, v, &sample, expectation, density_in_windows(scene, lights, light, sample.direction), choice,
-                      below);
+    const double in_windows = density_in_windows(scene, lights, light, sample.direction);
+    const rgb before = p->radiance;
+    double hidden = add_sample(p, v, &sample, expectation, in_windows, choice, below);
+    if (lights->windows.count > 0 && in_windows == 0 && scene_light_is_sky(&scene->lights[light]) &&
+        path_is_at_first(p))
+        known_light_watch_sky(p, hidden, rgb_brightness(rgb_add_scaled(p->radiance, -1, before)));
+    return hidden;
 }
 
 /* Where the sample of this number is looked for in a square, if the first is at two random numbers. */

@@ -48,6 +48,7 @@ static bool is_enough(const graze_trace_settings *s, uint32_t least, const estim
     /* Lights in mirrors are found too seldom to wait for: what is missing of them is stated. */
     if (judge->rare.by_mirrors && taken >= SEARCH_BELIEVED / ESTIMATE_HALVES)
         unseen = 0;
+    unseen = hypot(unseen, estimate_unseen_sky(judge, (double)taken * ESTIMATE_HALVES));
     return rgb_max(variance) / ESTIMATE_HALVES + unseen * unseen <= allowed * allowed;
 }
 

@@ -95,6 +95,11 @@ static double unseen_shadows(const estimate_half halves[ESTIMATE_HALVES], double
     return brightness > 0 ? fmin(unseen, brightness) : unseen;
 }
 
+double estimate_unseen_sky(const estimate_half *h, double count) {
+    bool watched = PATH_CONTROL_OF_SKY < h->control_count && h->lit[PATH_CONTROL_OF_SKY] <= 0;
+    return watched ? h->whole[PATH_CONTROL_OF_SKY] / (h->taken * count) : 0;
+}
+
 double estimate_unseen_gloss(const path_rare *sum, double taken, double count) {
     double missing = (sum->expected - sum->found / FOUND_ENOUGH) / taken;
     if (missing <= 0 || sum->squares <= 0)

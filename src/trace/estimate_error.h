@@ -40,4 +40,8 @@ rgb estimate_with_known_error(rgb variance, rgb value, bool integrated);
  * more, where what is expected is known by a few points alone. */
 double estimate_unseen_gloss(const path_rare *sum, double taken, double count);
 
+/* What is missing of a mean of `count` samples, if a half has found nothing of the sky beside the windows that it looks
+ * through: an opening there would be met about once in all of them. */
+double estimate_unseen_sky(const estimate_half *, double count);
+
 #endif

@@ -101,6 +101,12 @@ void known_light_watch_chosen(path *p, double hidden, double lit) {
     p->controls[0].lit += lit;
 }
 
+void known_light_watch_sky(path *p, double hidden, double lit) {
+    begin_controls(p, PATH_CONTROL_OF_SKY + 1);
+    p->controls[PATH_CONTROL_OF_SKY].whole += hidden + lit;
+    p->controls[PATH_CONTROL_OF_SKY].lit += lit;
+}
+
 /* What the surface reflects of a light that is seen as a whole, for a throughput of 1. */
 static rgb reflected_whole(const path *p, const vertex *v, const scene_light *light, const unshadowed_light *whole,
                            bool glossy) {
@@ -190,7 +196,7 @@ static void add_after_a_look(path *p, const vertex *v, int i, bool glossy, geome
         return;
     }
     p->known.controls |= 1u << i;
-    begin_controls(p, p->known.shared ? PATH_CONTROLS : i + 1);
+    begin_controls(p, p->known.shared ? PATH_FEW_LIGHTS + 1 : i + 1);
     path_control *control = control_of(p, i);
     control->difference = rgb_add(control->difference, rgb_multiply(p->throughput, reflected));
 }

@@ -33,6 +33,10 @@ void known_light_subtract(path *, int light, rgb found, double lit);
  * wholly, in the mean of the draws, and what was found. */
 void known_light_watch_chosen(path *, double hidden, double lit);
 
+/* Where windows are looked through, at a path's first point: takes how bright the sky is beside them, where it is
+ * hidden and where not. */
+void known_light_watch_sky(path *, double hidden, double lit);
+
 /* Takes away what the last reflection finds, or would find without shadows, of the known lights. */
 void known_light_subtract_reflected(path *, const vertex *from, const path_hit *, rgb found);
 

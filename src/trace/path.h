@@ -15,8 +15,9 @@ typedef struct path_control {
     double lit, whole;
 } path_control;
 
-/* One for each of few lights at the first point, and one for all lights at later points. */
-enum { PATH_CONTROLS = PATH_FEW_LIGHTS + 1 };
+/* One for each of few lights at the first point, one for all lights at later points, and one that only tells how much
+ * of the sky is hidden beside windows. */
+enum { PATH_CONTROL_OF_SKY = PATH_FEW_LIGHTS + 1, PATH_CONTROLS };
 
 /* What is known of the irradiance at the first point that does not come straight from lights. */
 typedef struct path_indirect {
