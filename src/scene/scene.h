@@ -163,12 +163,13 @@ struct graze_scene {
     scene_light *lights; /* the scene's shapes, the sources, and glows in copies; and behind, what is only seen */
     size_t light_count;
     size_t seen_light_count;
-    size_t first_source; /* lights[first_source .. first_copied - 1] are sources: `light` ones before `glow` ones */
-    size_t first_copied; /* lights[first_copied ..] are glows in copies, in the order of their surfaces' numbers */
-    bool meets_glows;    /* that light what is about but are not sampled: in mixtures, or too many copies */
-    bool has_sky;        /* one of them is so wide that it is a sky */
-    bool suns_overlap;   /* a direction is in two of the `light` ones */
-    bool sun_comes_in;   /* one that is no sky shines through one of the windows */
+    size_t first_source;     /* lights[first_source .. first_copied - 1] are sources: `light` ones before `glow` ones */
+    size_t first_copied;     /* lights[first_copied ..] are glows in copies, in the order of their surfaces' numbers */
+    bool meets_glows;        /* that light what is about but are not sampled: in mixtures, or too many copies */
+    bool has_sky;            /* one of them is so wide that it is a sky */
+    bool suns_overlap;       /* a direction is in two of the `light` ones */
+    bool sky_beside_windows; /* some of it comes into rooms where no windows are */
+    bool sun_comes_in;       /* one that is no sky shines through one of the windows */
     light_tree light_tree;
     geometry *geometry;
 };

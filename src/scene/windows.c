@@ -19,6 +19,10 @@
 #define LEAST_SKY 0.02
 #define DARKER    0.5
 
+/* From the windows so many walks of so many steps go through the rooms, and look about at each: where an opening is
+ * seen in less than a thousandth of all directions it may be missed, and is not much. */
+enum { WALKS = 256, STEPS = 4, LOOKS_ABOUT = 4 };
+
 typedef struct scene_window {
     shape shape;   /* a polygon, turned inside */
     double radius; /* about its center */
@@ -55,13 +59,19 @@ static bool is_sky_there(const graze_scene *scene, vec3 direction) {
     return false;
 }
 
+/* A direction above a surface, one of many that are spread by their cosines, by two numbers in [0,1). */
+static vec3 direction_above(vec3 normal, double height, double turn) {
+    frame axes = frame_around(normal);
+    double sine = sqrt(height), angle = 2 * PI * turn;
+    return frame_to_world(&axes, vec3_make(sine * cos(angle), sine * sin(angle), sqrt(1 - height)));
+}
+
 /* How much of the directions from one side of a pane, by their cosines, show the sky. */
 static double sky_seen(const graze_scene *scene, int64_t surface, const shape *s, double side) {
-    frame axes = frame_around(vec3_scale(side, s->polygon.normal));
+    vec3 normal = vec3_scale(side, s->polygon.normal);
     int seen = 0;
     for (int i = 0; i < LOOKS; i++) {
-        double sine = sqrt((i + 0.5) / LOOKS), turn = 2 * PI * even_step(i, GOLDEN_SECTION);
-        vec3 direction = frame_to_world(&axes, vec3_make(sine * cos(turn), sine * sin(turn), sqrt(1 - sine * sine)));
+        vec3 direction = direction_above(normal, (i + 0.5) / LOOKS, even_step(i, GOLDEN_SECTION));
         geometry_ray ray = {
             .origin = place_in_pane(s, i), .direction = direction, .far = GEOMETRY_FAR, .from = surface};
         seen += is_sky_there(scene, direction) && !geometry_occluded_but_for_panes(scene->geometry, &ray, -1, NULL);
@@ -100,6 +110,50 @@ static bool add_pane(graze_scene *scene, scene_windows *windows, int index) {
     for (uint32_t i = 0; i < s.polygon.vertex_count; i++)
         w->radius = fmax(w->radius, vec3_length(vec3_subtract(s.polygon.vertices[i], s.polygon.center)));
     return true;
+}
+
+/* Whether a ray comes to the sky, and not through a window. */
+static bool is_through_opening(const graze_scene *scene, const scene_windows *windows, const geometry_ray *ray) {
+    double distance;
+    if (!is_sky_there(scene, ray->direction) || geometry_occluded_but_for_panes(scene->geometry, ray, -1, NULL))
+        return false;
+    for (int i = 0; i < windows->count; i++)
+        if (shape_front_crossing(&windows->of[i].shape, ray->origin, ray->direction, &distance))
+            return false;
+    return true;
+}
+
+/* Goes to the next surface that light does not pass. False: there is none. */
+static bool go_to_next(const graze_scene *scene, geometry_ray *ray, geometry_hit *hit) {
+    while (geometry_intersect(scene->geometry, ray, hit)) {
+        ray->origin = hit->point;
+        ray->from = hit->surface;
+        if (!geometry_passes(scene->geometry, hit->surface))
+            return true;
+    }
+    return false;
+}
+
+/* Whether some of the sky comes in where no windows are: through openings, or panes that are not among them. */
+static bool has_openings(const graze_scene *scene, const scene_windows *windows) {
+    for (int walk = 0, number = 0; walk < WALKS; walk++) {
+        const shape *s = &windows->of[walk % windows->count].shape;
+        geometry_ray ray = {.origin = place_in_pane(s, walk), .far = GEOMETRY_FAR, .from = -1};
+        vec3 normal = s->polygon.normal;
+        for (int step = 0; step <= STEPS; step++) {
+            for (int look = 0; look < (step == 0 ? 1 : LOOKS_ABOUT); look++, number++) {
+                ray.direction =
+                    direction_above(normal, even_step(number + 0.5, EVEN_STEP_X), even_step(number + 0.5, EVEN_STEP_Y));
+                if (is_through_opening(scene, windows, &ray))
+                    return true;
+            }
+            geometry_hit hit;
+            if (!go_to_next(scene, &ray, &hit))
+                break;
+            normal = vec3_dot(hit.normal, ray.direction) < 0 ? hit.normal : vec3_negate(hit.normal);
+        }
+    }
+    return false;
 }
 
 typedef struct pane {
@@ -141,8 +195,10 @@ graze_status scene_windows_find(graze_scene *scene, const graze_report *report) 
     for (size_t i = 0; ok && i < count; i++)
         ok = add_pane(scene, windows, panes[i].surface);
     free(panes);
-    if (ok && windows->count > 0)
+    if (ok && windows->count > 0) {
         scene->windows = windows;
+        scene->sky_beside_windows = windows->count > WINDOWS_SEEN_MOST || has_openings(scene, windows);
+    }
     return ok ? GRAZE_OK : report_out_of_memory(report);
 }
 

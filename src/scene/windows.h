@@ -9,7 +9,8 @@
  * between the bars of some windows should be among them. */
 enum { WINDOWS_SEEN_MOST = 64 };
 
-/* Finds the panes that one side of sees much of a sky, and the other not. The scene's geometry must be there. */
+/* Finds the panes that one side of sees much of a sky, and the other not; whether a sun shines through them, and whether
+ * some of the sky comes in elsewhere. The scene's geometry must be there. */
 graze_status scene_windows_find(graze_scene *, const graze_report *);
 
 /* Windows as a point sees them, those that it sees most of first. */

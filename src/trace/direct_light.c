@@ -223,8 +223,8 @@ static ONE_SIDE double add_sampled_light(path *p, const vertex *v, const light_c
     const double in_windows = density_in_windows(scene, lights, light, sample.direction);
     const rgb before = p->radiance;
     double hidden = add_sample(p, v, &sample, expectation, in_windows, choice, below);
-    if (lights->windows.count > 0 && in_windows == 0 && scene_light_is_sky(&scene->lights[light]) &&
-        path_is_at_first(p))
+    if (scene->sky_beside_windows && lights->windows.count > 0 && in_windows == 0 &&
+        scene_light_is_sky(&scene->lights[light]) && path_is_at_first(p))
         known_light_watch_sky(p, hidden, rgb_brightness(rgb_add_scaled(p->radiance, -1, before)));
     return hidden;
 }

@@ -161,13 +161,34 @@ static void bars_leave_no_pane_out(void **state) {
     graze_scene_destroy(scene);
 }
 
+static bool has_sky_beside_windows(const char *text) {
+    graze_scene *scene = load_scene(text);
+    assert_non_null(scene->windows);
+    bool has = scene->sky_beside_windows;
+    graze_scene_destroy(scene);
+    return has;
+}
+
+/* Also where it is seen from the depth of a room alone. */
+static void openings_beside_windows(void **state) {
+    (void)state;
+#define SCREEN "w polygon screen 0 0 12 0 2 0 4 2 0 4 2 2 0 2 2\n"
+    assert_false(has_sky_beside_windows(GLASS SKY GROUND ROOM PANE));
+    assert_false(has_sky_beside_windows(GLASS SKY GROUND ROOM PANE SCREEN));
+    assert_true(has_sky_beside_windows(GLASS SKY GROUND ROOM "clear polygon p 0 0 12 0 0 0 3.7 0 0 3.7 0 3 0 0 3\n"));
+    assert_true(has_sky_beside_windows(GLASS SKY GROUND
+                                       "w polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n"
+                                       "w polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"
+                                       "w polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
+                                       "w polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+                                       "w polygon north 0 0 12 0 4 1 4 4 1 4 4 3 0 4 3\n" PANE SCREEN));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_are_seen_from_inside),
-        cmocka_unit_test(what_is_no_window),
-        cmocka_unit_test(densities_are_of_the_draws),
-        cmocka_unit_test(bars_leave_no_pane_out),
-        cmocka_unit_test(suns_that_come_in),
+        cmocka_unit_test(windows_are_seen_from_inside), cmocka_unit_test(what_is_no_window),
+        cmocka_unit_test(densities_are_of_the_draws),   cmocka_unit_test(openings_beside_windows),
+        cmocka_unit_test(bars_leave_no_pane_out),       cmocka_unit_test(suns_that_come_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
