@@ -24,7 +24,8 @@
 enum { WALKS = 256, STEPS = 4, LOOKS_ABOUT = 4 };
 
 typedef struct scene_window {
-    shape shape;   /* a polygon, turned inside */
+    shape shape;   /* a polygon, turned inside, */
+    int surface;   /* of this surface */
     double radius; /* about its center */
 } scene_window;
 
@@ -106,6 +107,7 @@ static bool add_pane(graze_scene *scene, scene_windows *windows, int index) {
     scene->sun_comes_in = scene->sun_comes_in || sun_comes_in(scene, index, &s);
     scene_window *w = &windows->of[windows->count++];
     w->shape = s;
+    w->surface = index;
     w->radius = 0;
     for (uint32_t i = 0; i < s.polygon.vertex_count; i++)
         w->radius = fmax(w->radius, vec3_length(vec3_subtract(s.polygon.vertices[i], s.polygon.center)));
@@ -123,13 +125,22 @@ static bool is_through_opening(const graze_scene *scene, const scene_windows *wi
     return true;
 }
 
-/* Goes to the next surface that light does not pass. False: there is none. */
-static bool go_to_next(const graze_scene *scene, geometry_ray *ray, geometry_hit *hit) {
+static bool is_window(const scene_windows *windows, int64_t surface) {
+    for (int i = 0; i < windows->count; i++)
+        if (windows->of[i].surface == surface)
+            return true;
+    return false;
+}
+
+/* Goes to the next surface that light does not pass. False: there is none, or the ray leaves by a window. */
+static bool go_to_next(const graze_scene *scene, const scene_windows *windows, geometry_ray *ray, geometry_hit *hit) {
     while (geometry_intersect(scene->geometry, ray, hit)) {
         ray->origin = hit->point;
         ray->from = hit->surface;
         if (!geometry_passes(scene->geometry, hit->surface))
             return true;
+        if (is_window(windows, hit->surface))
+            return false;
     }
     return false;
 }
@@ -137,9 +148,10 @@ static bool go_to_next(const graze_scene *scene, geometry_ray *ray, geometry_hit
 /* Whether some of the sky comes in where no windows are: through openings, or panes that are not among them. */
 static bool has_openings(const graze_scene *scene, const scene_windows *windows) {
     for (int walk = 0, number = 0; walk < WALKS; walk++) {
-        const shape *s = &windows->of[walk % windows->count].shape;
-        geometry_ray ray = {.origin = place_in_pane(s, walk), .far = GEOMETRY_FAR, .from = -1};
-        vec3 normal = s->polygon.normal;
+        const scene_window *window = &windows->of[walk % windows->count];
+        geometry_ray ray = {
+            .origin = place_in_pane(&window->shape, walk), .far = GEOMETRY_FAR, .from = window->surface};
+        vec3 normal = window->shape.polygon.normal;
         for (int step = 0; step <= STEPS; step++) {
             for (int look = 0; look < (step == 0 ? 1 : LOOKS_ABOUT); look++, number++) {
                 ray.direction =
@@ -148,7 +160,7 @@ static bool has_openings(const graze_scene *scene, const scene_windows *windows)
                     return true;
             }
             geometry_hit hit;
-            if (!go_to_next(scene, &ray, &hit))
+            if (!go_to_next(scene, windows, &ray, &hit))
                 break;
             normal = vec3_dot(hit.normal, ray.direction) < 0 ? hit.normal : vec3_negate(hit.normal);
         }
