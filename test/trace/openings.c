@@ -9,21 +9,15 @@
 #include <cmocka.h>
 
 #include "one_ray.h"
+#include "room.h"
 
 enum { SEEDS = 60, REFERENCE = 200000 };
 
 /* A closed box but for an opening in one wall, most of which has a pane. */
-static const char *const room =
-    "void plastic m 0 0 5 .5 .5 .5 0 0 void glass g 0 0 3 .9 .9 .9 "
-    "void glow a 0 0 4 1 1 1 0 a source sky 0 0 4 0 0 1 180 "
-    "void glow b 0 0 4 .3 .3 .3 0 b source ground 0 0 4 0 0 -1 180 "
-    "m polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0 "
-    "m polygon ceiling 0 0 12 0 6 3 4 6 3 4 0 3 0 0 3 "
-    "m polygon left 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3 "
-    "m polygon right 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0 "
-    "m polygon back 0 0 12 0 6 0 4 6 0 4 6 3 0 6 3 "
-    "m polygon front 0 0 30 0 0 0 0 0 3 4 0 3 4 0 0 0 0 0 1 0 1 3 0 1 3 0 2.5 1 0 2.5 1 0 1 "
-    "g polygon pane 0 0 12 1 0 1 2.6 0 1 2.6 0 2.5 1 0 2.5 ";
+static const char *const room = "void plastic m 0 0 5 .5 .5 .5 0 0 void glass g 0 0 3 .9 .9 .9 "
+                                "void glow a 0 0 4 1 1 1 0 a source sky 0 0 4 0 0 1 180 "
+                                "void glow b 0 0 4 .3 .3 .3 0 b source ground 0 0 4 0 0 -1 180 " ROOM_WITHOUT_FRONT("m")
+                                    ROOM_FRONT("m", "2.5") "g polygon pane 0 0 12 1 0 1 2.6 0 1 2.6 0 2.5 1 0 2.5 ";
 
 /* Of the floor below the window, the ceiling and a wall. */
 static const graze_ray rays[] = {

@@ -8,17 +8,11 @@
 #include <cmocka.h>
 
 #include "one_ray.h"
+#include "room.h"
 
 /* A closed box but for the pane in one wall. */
-static const char *const room =
-    "void plastic m 0 0 5 .5 .5 .5 0 0 void glass g 0 0 3 .9 .9 .9 "
-    "m polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0 "
-    "m polygon ceiling 0 0 12 0 6 3 4 6 3 4 0 3 0 0 3 "
-    "m polygon left 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3 "
-    "m polygon right 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0 "
-    "m polygon back 0 0 12 0 6 0 4 6 0 4 6 3 0 6 3 "
-    "m polygon front 0 0 30 0 0 0 0 0 3 4 0 3 4 0 0 0 0 0 1 0 1 3 0 1 3 0 2.5 1 0 2.5 1 0 1 "
-    "g polygon pane 0 0 12 1 0 1 3 0 1 3 0 2.5 1 0 2.5 ";
+static const char *const room = "void plastic m 0 0 5 .5 .5 .5 0 0 void glass g 0 0 3 .9 .9 .9 " ROOM_WITHOUT_FRONT("m")
+    ROOM_FRONT("m", "2.5") "g polygon pane 0 0 12 1 0 1 3 0 1 3 0 2.5 1 0 2.5 ";
 
 static graze_answer answer_of(const char *skies, graze_strategy strategy) {
     char text[3000];

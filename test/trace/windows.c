@@ -10,21 +10,17 @@
 #include <cmocka.h>
 
 #include "one_ray.h"
+#include "room.h"
 
 #include "base/angle.h"
 #include "graze/brdf_light.h"
 #include "support/dice.h"
 
 /* A black room, 4 x 6 x 3, with a window in the wall at y = 0. */
-#define BLACK_ROOM                                                                                                     \
-    "void plastic w 0 0 5 0 0 0 0 0\n"                                                                                 \
-    "w polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0 w polygon ceiling 0 0 12 0 0 3 0 6 3 4 6 3 4 0 3\n"                \
-    "w polygon west 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3 w polygon east 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0\n"                    \
-    "w polygon north 0 0 12 0 6 0 4 6 0 4 6 3 0 6 3\n"                                                                 \
-    "w polygon south 0 0 30 0 0 0 0 0 3 4 0 3 4 0 0 0 0 0 1 0 1 3 0 1 3 0 2 1 0 2 1 0 1\n"
-#define CLEAR  "void glass clear 0 0 4 1 1 1 1\n"
-#define WINDOW "clear polygon pane 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n"
-#define SKY    "void glow g 0 0 4 1 1 1 0 g source sky 0 0 4 0 0 1 180 g source ground 0 0 4 0 0 -1 180\n"
+#define BLACK_ROOM "void plastic w 0 0 5 0 0 0 0 0\n" ROOM_WITHOUT_FRONT("w") ROOM_FRONT("w", "2")
+#define CLEAR      "void glass clear 0 0 4 1 1 1 1\n"
+#define WINDOW     "clear polygon pane 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n"
+#define SKY        "void glow g 0 0 4 1 1 1 0 g source sky 0 0 4 0 0 1 180 g source ground 0 0 4 0 0 -1 180\n"
 
 static double window_irradiance(vec3 point, vec3 normal) {
     const frame f = frame_around(normal);
@@ -85,10 +81,8 @@ static graze_answer ask(const graze_scene *scene, graze_strategy strategy, int b
 }
 
 #define GRAY_ROOM                                                                                                      \
-    "void plastic w 0 0 5 .6 .5 .4 0 0 void metal2 m 4 1 0 0 . 0 6 .6 .6 .6 .8 .3 .4 m sphere ball 0 0 4 2 2 .5 .5\n"  \
-    "w polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0 w polygon ceiling 0 0 12 0 0 3 0 6 3 4 6 3 4 0 3\n"                \
-    "w polygon west 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3 w polygon east 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0\n"                    \
-    "w polygon north 0 0 12 0 6 0 4 6 0 4 6 3 0 6 3\n"
+    "void plastic w 0 0 5 .6 .5 .4 0 0 void metal2 m 4 1 0 0 . 0 6 .6 .6 .6 .8 .3 .4 m sphere ball 0 0 4 2 2 .5 "      \
+    ".5\n" ROOM_WITHOUT_FRONT("w")
 #define GLASS "void glass clear 0 0 3 .9 .95 .92\n"
 
 #define PANES(low, high)                                                                                               \
