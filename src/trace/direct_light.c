@@ -177,13 +177,17 @@ static ONE_SIDE double add_sample(path *p, const vertex *v, const light_sample *
     const light_sample sample = *drawn;
     const int light = sample.light;
     double cosine = fabs(vec3_dot(sample.direction, v->shading.n));
-    double own = expectation * sample.density, density = other > 0 ? hypot(own, other) : own;
+    double own = expectation * sample.density, density = own, share = 1;
+    if (other > 0) {
+        density = hypot(own, other);
+        share = power_heuristic(own, other);
+    }
     reflectance r = reflectance_for_light(p, v, &sample, density, choice, below);
     rgb reflected = rgb_multiply(rgb_add(r.diffuse, r.glossy), sample.radiance);
     rare_gloss rare = !r.by_gloss || p->gloss == RARE_GLOSS_MIRROR ? RARE_GLOSS_NONE : p->gloss;
     if (rare != RARE_GLOSS_FLAT && rgb_is_black(reflected))
         return 0;
-    rgb weight = rgb_scale(cosine / own * power_heuristic(own, other), p->throughput);
+    rgb weight = rgb_scale(cosine / own * share, p->throughput);
     rgb whole = rgb_multiply(weight, reflected);
     rgb passed = rgb_gray(1);
     bool lit = light_is_visible(p, v, &sample, &passed);
