@@ -36,7 +36,7 @@ typedef struct light_choice {
     window_choice windows; /* where the sky is looked for, beside sampling it as a light */
 } light_choice;
 
-/* For a point that asks; windows are looked for if its diffuse reflection of ambient light is wanted. */
+/* For a point that asks; windows are looked for if its reflection of ambient light is wanted. */
 void light_choice_prepare(light_choice *, const graze_scene *, const light_receiver *);
 
 /* For a point that nothing shines on. */

@@ -8,6 +8,7 @@
 #include "base/even_steps.h"
 #include "geometry/crossing.h"
 #include "geometry/solid_angle.h"
+#include "scene/light.h"
 
 /* Of more panes the largest are looked at: every point asks all that are windows how much it sees of them. */
 #define MOST_WINDOWS 256
@@ -54,8 +55,7 @@ static vec3 place_in_pane(const shape *s, int i) {
 
 static bool is_sky_there(const graze_scene *scene, vec3 direction) {
     for (size_t i = scene->first_source; i < scene->first_copied; i++)
-        if (scene_light_is_sky(&scene->lights[i]) &&
-            vec3_dot(direction, scene->lights[i].center) >= cos(scene->lights[i].half_angle))
+        if (scene_light_is_sky(&scene->lights[i]) && light_source_shines_from(scene, (int)i, direction))
             return true;
     return false;
 }

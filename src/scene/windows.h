@@ -13,7 +13,7 @@ enum { WINDOWS_SEEN_MOST = 64 };
  * some of the sky comes in elsewhere. The scene's geometry must be there. */
 graze_status scene_windows_find(graze_scene *, const graze_report *);
 
-/* Windows as a point sees them, those that it sees most of first. */
+/* Windows as a point sees them. */
 typedef struct window_choice {
     const struct scene_windows *windows;
     vec3 point;
